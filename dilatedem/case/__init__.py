@@ -1,0 +1,1 @@
+"""The case file: its schema, loading, overrides, sweep grids, and writing it back in full."""

@@ -1,0 +1,133 @@
+"""The grid of a sweep: `--vary KEY=VALUES` and seeds, as lists of overrides, one list a case."""
+
+import itertools
+import re
+from dataclasses import dataclass
+from decimal import Decimal, InvalidOperation
+from typing import Any
+
+from dilatedem.case.overrides import Override, parse_value
+from dilatedem.errors import CaseError
+
+SEED_KEY = "field.seed"
+
+# More cases than this in one sweep are taken for a slip of the step, as in 0:100:0.001.
+LARGEST_GRID = 100_000
+
+_OPENING, _CLOSING = "[{", "]}"
+
+
+@dataclass(frozen=True)
+class Axis:
+    """One key and the values it takes in turn."""
+
+    key: str
+    values: tuple[Any, ...]
+    origin: str
+
+
+def axis(text: str) -> Axis:
+    """An axis from `KEY=V1,V2,..`, `KEY=START:STOP:STEP`, or a mixture; STOP is taken when a step meets it.
+
+    Fails with CaseError naming the option.
+    """
+    key, equals, values = text.partition("=")
+    key = key.strip()
+    if not equals or not all(key.split(".")):
+        raise CaseError(f"--vary {text}: must be KEY=V1,V2,.. or KEY=START:STOP:STEP")
+    origin = f"--vary {key}"
+    found: list[Any] = []
+    for part in _parts(values):
+        found += _range(part, origin) if _is_range(part) else [parse_value(part, origin)]
+    for i, value in enumerate(found):
+        if value in found[:i]:
+            raise CaseError(f"{origin}: {value} is given twice")
+    return Axis(key, tuple(found), origin)
+
+
+def cases(axes: list[Axis]) -> list[list[Override]]:
+    """All combinations, the last axis changing fastest; one list of overrides a case.
+
+    Fails with CaseError on a key that is varied twice and on a grid too large to be meant.
+    """
+    count = 1
+    for i, axis_ in enumerate(axes):
+        if axis_.key in [other.key for other in axes[:i]]:
+            raise CaseError(f"{axis_.origin}: is varied twice; join the values in one list")
+        count *= len(axis_.values)
+    if count > LARGEST_GRID:
+        raise CaseError(f"the sweep has {count} cases; at most {LARGEST_GRID} are run at once")
+    columns = [[Override(axis_.key, value, axis_.origin) for value in axis_.values] for axis_ in axes]
+    return [list(point) for point in itertools.product(*columns)]
+
+
+def seed_axis(first: int, count: int) -> Axis:
+    """The axis of `--seeds COUNT`: `count` seeds from that of the case on."""
+    return Axis(SEED_KEY, tuple(range(first, first + count)), "--seeds")
+
+
+def folder_name(point: list[Override]) -> str:
+    """A readable folder name for a point of the grid, of characters that no shell or file system minds.
+
+    `water.velocity=0.3__seed=2`; the values of a list are joined by commas.
+    """
+    parts = []
+    for override in point:
+        key = "seed" if override.origin == "--seeds" else override.key
+        parts.append(f"{key}={_plain(override.value)}")
+    return re.sub(r"[^\w.,=+-]", "_", "__".join(parts))
+
+
+def _plain(value: Any) -> str:
+    if isinstance(value, list | tuple):
+        return ",".join(map(_plain, value))
+    return str(value).lower() if isinstance(value, bool) else str(value)
+
+
+def _parts(text: str) -> list[str]:
+    """The parts between commas, but for commas inside brackets and quotes."""
+    parts, depth, quote = [""], 0, ""
+    for character in text:
+        if quote:
+            quote = "" if character == quote else quote
+        elif character in "\"'":
+            quote = character
+        elif character in _OPENING:
+            depth += 1
+        elif character in _CLOSING:
+            depth -= 1
+        if character == "," and depth == 0 and not quote:
+            parts.append("")
+        else:
+            parts[-1] += character
+    return [part.strip() for part in parts]
+
+
+def _is_range(text: str) -> bool:
+    pieces = text.split(":")
+    return len(pieces) > 1 and _decimal(pieces[0]) is not None
+
+
+def _range(text: str, origin: str) -> list[int] | list[float]:
+    """START:STOP:STEP in decimal arithmetic, so that 0.1:1.0:0.1 holds 0.3 and not 0.30000000000000004."""
+    numbers = [_decimal(piece) for piece in text.split(":")]
+    if len(numbers) != 3 or None in numbers:
+        raise CaseError(f"{origin}: {text}: a range is START:STOP:STEP, as in 0.1:1.0:0.1")
+    start, stop, step = numbers
+    if step == 0 or (stop - start) * step < 0:
+        raise CaseError(f"{origin}: {text}: no step of {step} leads from {start} to {stop}")
+    count = int((stop - start) / step) + 1
+    if count > LARGEST_GRID:
+        raise CaseError(f"{origin}: {text}: has {count} values; at most {LARGEST_GRID} are run at once")
+    values = [start + i * step for i in range(count)]
+    if all(number == number.to_integral_value() and "." not in str(number) for number in numbers):
+        return [int(value) for value in values]
+    return [float(value) for value in values]
+
+
+def _decimal(text: str) -> Decimal | None:
+    try:
+        number = Decimal(text.strip())
+    except InvalidOperation:
+        return None
+    return number if number.is_finite() else None

@@ -1,0 +1,277 @@
+"""The case file as data: one field is one documented key, with its default, unit, bounds and meaning.
+
+The docs (`docs/case-file.md`) and `dilatedem schema` are generated from this file. Everything here is frozen:
+a case does not change once it was read.
+"""
+
+from typing import Annotated, Any, Literal
+
+from pydantic import Field, model_validator
+
+from dilatedem.case.keys import (
+    LARGEST_INTEGER,
+    Boundary,
+    Fault,
+    NonNegative,
+    PoissonRatio,
+    Positive,
+    Size2,
+    Table,
+    TomlJsonSchema,
+    Vector2,
+    Vector3,
+    complete,
+    key,
+)
+from dilatedem.case.solids import Body, PileStructure, PlaneStructure
+
+# Contact with a wall boundary is recorded under these names, so that no structure may take them.
+WALL_NAMES = ("wall_x_min", "wall_x_max", "wall_y_min", "wall_y_max")
+
+
+def _dilation_faults(radius: float, thickness: float) -> list[Fault]:
+    """A floe's core is its outer shape less the dilated radius on every side: it must not turn inside out."""
+    if 2 * radius > thickness:
+        return [(("dilated_radius",), f"must be at most half the thickness, {thickness / 2:g} m")]
+    return []
+
+
+class Domain(Table):
+    """The rectangle of sea, centred on the origin. The still water level is z = 0, z points up."""
+
+    size: Size2 = key((50.0, 50.0), "m", "Extent along x (the usual direction of the current) and along y.")
+    x_boundary: Boundary = key("open", "", "The two sides at x = -size/2 and +size/2.")
+    y_boundary: Boundary = key("open", "", "The two sides at y = -size/2 and +size/2.")
+
+
+class IceField(Table):
+    """The floes at the start: Voronoi cells of random points, shrunk to the concentration asked for."""
+
+    source: Literal["voronoi", "bodies"] = key(
+        "voronoi", "", "`voronoi` generates floes; `bodies` takes the `[[body]]` entries and nothing else."
+    )
+    floe_size: Positive | None = key(
+        None, "m", "Square root of the mean floe area; 2.8 unless `floe_count` is given."
+    )
+    floe_count: Annotated[int, Field(ge=1)] | None = key(
+        None, "", "Number of floes before those that touch a structure are left out; instead of `floe_size`."
+    )
+    concentration: Annotated[float, Field(gt=0, lt=1)] = key(
+        0.64, "", "Share of the domain's area that is covered by ice."
+    )
+    seed: Annotated[int, Field(ge=0, le=LARGEST_INTEGER)] = key(
+        1, "", "Seed of the random points; the same seed gives the same field."
+    )
+
+    def faults(self) -> list[Fault]:
+        if self.floe_size is not None and self.floe_count is not None:
+            return [(("floe_count",), "give either floe_size or floe_count, not both")]
+        return []
+
+    @model_validator(mode="after")
+    def _default_size(self):
+        if self.floe_size is None and self.floe_count is None:
+            complete(self, "floe_size", 2.8)
+        return self
+
+
+class Ice(Table):
+    """The floes' material and shape. Thickness and outline are outer sizes, dilation included."""
+
+    density: Positive = key(915.0, "kg/m3", "Density of the ice.")
+    thickness: Positive = key(0.5, "m", "Outer thickness of a floe.")
+    dilated_radius: Positive = key(
+        0.04, "m", "Radius by which a floe's edges and corners are rounded; at most half the thickness."
+    )
+    elastic_modulus: Positive = key(1.0e9, "Pa", "Young's modulus in contact.")
+    poisson_ratio: PoissonRatio = key(0.3, "", "Poisson's ratio.")
+    initial_velocity: Literal["current"] | Vector3 = key(
+        "current", "m/s",
+        "Velocity of the generated floes at the start: `[u, v, w]`, or `current` for that of the water "
+        "(at rest where the water is off).",
+        allowed='must be "current" or a list of 3 numbers',
+    )
+
+    def faults(self) -> list[Fault]:
+        return _dilation_faults(self.dilated_radius, self.thickness)
+
+
+class Water(Table):
+    """Buoyancy and the drag of a uniform current, on the part of a floe below z = 0."""
+
+    enabled: bool = key(True, "", "`false` switches buoyancy and drag off.")
+    density: Positive = key(1025.0, "kg/m3", "Density of the sea water.")
+    velocity: Vector2 = key((0.3, 0.0), "m/s", "Velocity of the current along x and y.")
+    drag_force_coefficient: NonNegative = key(
+        0.6, "", "Coefficient of the drag force, referred to the wetted surface (Liu 2015, Eq. 26)."
+    )
+    drag_moment_coefficient: NonNegative = key(
+        0.1, "", "Coefficient of the drag moment, referred to the wetted surface (Liu 2015, Eq. 27)."
+    )
+
+
+class Gravity(Table):
+    """Uniform gravity."""
+
+    acceleration: NonNegative = key(9.81, "m/s2", "Acceleration along -z; 0 switches gravity off.")
+
+
+class Contact(Table):
+    """The contact laws between floes and with structures."""
+
+    model: Literal["liu2015", "consistent"] = key(
+        "liu2015", "",
+        "`liu2015`: the paper's laws, mode by mode; `consistent`: laws that agree with elasticity and with "
+        "each other.",
+    )
+    damping: NonNegative = key(0.36, "", "Damping coefficient of the normal force; 0 is elastic.")
+    friction: NonNegative = key(0.1, "", "Coefficient of friction.")
+    stiffness_ratio: NonNegative = key(0.7, "", "Tangential over normal stiffness.")
+
+
+class Time(Table):
+    """How long, and in which steps."""
+
+    duration: Positive = key(100.0, "s", "Simulated time.")
+    step: Literal["auto"] | Positive = key(
+        "auto", "s", "Time step, or `auto` for `step_fraction` of the critical one.",
+        allowed='must be "auto" or a number greater than 0',
+    )
+    step_fraction: Annotated[float, Field(gt=0, lt=1)] = key(
+        0.1, "", "The automatic step as a share of the critical step."
+    )
+
+    def faults(self) -> list[Fault]:
+        if self.step != "auto" and self.step > self.duration:
+            return [(("step",), f"must be at most time.duration, {self.duration:g} s")]
+        return []
+
+
+class Output(Table):
+    """What is written, and how often in simulated time."""
+
+    snapshot_interval: NonNegative = key(1.0, "s", "Between two VTU snapshots of the floes; 0 writes none.")
+    force_interval: Positive = key(0.01, "s", "Window of one row of forces.csv.")
+    energy_interval: Positive = key(0.1, "s", "Between two rows of energy.csv.")
+    track: Literal["all"] | list[Annotated[int, Field(ge=0)]] = key(
+        [], "", 'Numbers of the bodies whose motion goes to bodies.csv, or `"all"`.',
+        allowed='must be "all" or a list of body numbers, from 0',
+    )
+    track_interval: Positive = key(0.01, "s", "Between two rows of a tracked body in bodies.csv.")
+    checkpoint_interval: NonNegative = key(
+        10.0, "s", "Between two saved states, from which `--resume` goes on; 0 saves only where the run ends."
+    )
+
+    def faults(self) -> list[Fault]:
+        if self.track != "all" and len(set(self.track)) < len(self.track):
+            return [(("track",), "names a body twice")]
+        return []
+
+
+class Case(Table):
+    """A whole case: what `dilatedem run` simulates."""
+
+    title: str = key("", "", "A line that says what the case is.")
+    domain: Domain = Domain()
+    field: IceField = IceField()
+    ice: Ice = Ice()
+    water: Water = Water()
+    gravity: Gravity = Gravity()
+    structure: list[Annotated[PileStructure | PlaneStructure, Field(discriminator="kind")]] = []
+    contact: Contact = Contact()
+    time: Time = Time()
+    output: Output = Output()
+    body: list[Body] = []
+
+    def faults(self) -> list[Fault]:
+        return [*self._name_faults(), *self._body_faults(), *self._track_faults()]
+
+    @model_validator(mode="after")
+    def _fill_bodies(self):
+        """Bodies take from [ice] what they leave out, so that no reader of a case need know where to look."""
+        complete(self, "body", [body.model_copy(update=self._from_ice(body)) for body in self.body])
+        return self
+
+    def _from_ice(self, body: Body) -> dict[str, Any]:
+        names = ["dilated_radius", "density", "elastic_modulus", "poisson_ratio"]
+        if body.outline is not None:
+            names.append("thickness")
+        values = {name: getattr(self.ice, name) for name in names if getattr(body, name) is None}
+        if body.vertices is not None and body.position is None:
+            values["position"] = (0.0, 0.0, 0.0)
+        return values
+
+    def _name_faults(self) -> list[Fault]:
+        found: list[Fault] = []
+        first: dict[str, int] = {}
+        for i, structure in enumerate(self.structure):
+            if structure.name in WALL_NAMES:
+                found.append((("structure", i, "name"), "is kept for a wall of the domain; choose another"))
+            elif structure.name in first:
+                other = f"structure.{first[structure.name]}"
+                text = f"is the name of {other} too; give each structure one of its own"
+                found.append((("structure", i, "name"), text))
+            first.setdefault(structure.name, i)
+        return found
+
+    def _body_faults(self) -> list[Fault]:
+        found: list[Fault] = []
+        if self.field.source == "bodies" and not self.body:
+            found.append((("field", "source"), "needs at least one [[body]]"))
+        for i, body in enumerate(self.body):
+            given = [name for name in ("dilated_radius", "thickness") if getattr(body, name) is not None]
+            if body.outline is None or not given:
+                continue  # without either of its own, [ice] has been compared already
+            radius = body.dilated_radius if body.dilated_radius is not None else self.ice.dilated_radius
+            thickness = body.thickness if body.thickness is not None else self.ice.thickness
+            if "dilated_radius" not in given and 2 * radius > thickness:
+                text = f"must be at least twice ice.dilated_radius, {2 * radius:g} m"
+                found.append((("body", i, "thickness"), text))
+            else:
+                faults = _dilation_faults(radius, thickness)
+                found += [(("body", i, *where), text) for where, text in faults]
+        return found
+
+    def _track_faults(self) -> list[Fault]:
+        # The number of generated floes is known only once the field was built, so that is checked there.
+        if self.field.source != "bodies" or self.output.track == "all" or not self.body:
+            return []
+        beyond = [number for number in self.output.track if number >= len(self.body)]
+        if not beyond:
+            return []
+        text = f"there is no body {beyond[0]}; they are numbered from 0 to {len(self.body) - 1}"
+        return [(("output", "track"), text)]
+
+
+TABLES: dict[str, type[Table]] = {
+    name: field.annotation
+    for name, field in Case.model_fields.items()
+    if isinstance(field.annotation, type) and issubclass(field.annotation, Table)
+}
+STRUCTURES: dict[str, type[Table]] = {"pile": PileStructure, "plane": PlaneStructure}
+
+
+def table_of(path: tuple[str | int, ...], data: dict) -> tuple[type[Table], str] | None:
+    """The table that the key at or around `path` belongs to, and the key; None where there is none.
+
+    path : keys and list positions from the top, as in ("structure", 0, "radius").
+    data : the case as read, not validated; it tells the kind of a structure.
+    """
+    if len(path) == 1:
+        return Case, str(path[0])
+    if path[0] in TABLES:
+        return TABLES[path[0]], str(path[1])
+    if len(path) < 3 or path[0] not in ("structure", "body"):
+        return None
+    if path[0] == "body":
+        return Body, str(path[2])
+    try:
+        return STRUCTURES[data["structure"][path[1]]["kind"]], str(path[2])
+    except (KeyError, IndexError, TypeError):
+        return None
+
+
+def json_schema() -> dict[str, Any]:
+    """JSON Schema of the case file, for editors and other programs."""
+    schema = Case.model_json_schema(schema_generator=TomlJsonSchema)
+    return {"$schema": TomlJsonSchema.schema_dialect, **schema}

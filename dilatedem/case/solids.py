@@ -1,0 +1,93 @@
+"""The solids of a case file that are given one by one: structures and explicit bodies."""
+
+import math
+from typing import Annotated, Any, Literal
+
+from pydantic import Field
+
+from dilatedem.case.keys import Fault, Name, PoissonRatio, Positive, Table, Vector2, Vector3, key
+
+
+def _name(default: str) -> Any:
+    text = "Its name in all output: a letter, then letters, digits, `_` and `-`. No two structures share one."
+    return key(default, "", text)
+
+
+class PileStructure(Table):
+    """A vertical circular pile, reaching beyond any floe above and below."""
+
+    kind: Literal["pile"] = key(..., "", "A vertical circular pile.")
+    name: Name = _name("pile")
+    center: Vector2 = key((10.0, 0.0), "m", "Position of the axis, x and y.")
+    radius: Positive = key(2.0, "m", "Radius of the pile.")
+    elastic_modulus: Positive = key(210e9, "Pa", "Young's modulus in contact.")
+    poisson_ratio: PoissonRatio = key(0.3, "", "Poisson's ratio.")
+
+
+class PlaneStructure(Table):
+    """An unbounded plane, solid on the side that its normal points away from."""
+
+    kind: Literal["plane"] = key(..., "", "An unbounded plane.")
+    name: Name = _name("plane")
+    point: Vector3 = key(..., "m", "Any point of the plane.")
+    normal: Vector3 = key(..., "", "Direction from the plane towards the ice; any length but zero.")
+    elastic_modulus: Positive = key(210e9, "Pa", "Young's modulus in contact.")
+    poisson_ratio: PoissonRatio = key(0.3, "", "Poisson's ratio.")
+
+    def faults(self) -> list[Fault]:
+        if math.hypot(*self.normal) == 0.0:
+            return [(("normal",), "must not be zero: it points from the plane towards the ice")]
+        return []
+
+
+class Body(Table):
+    """An explicit body, numbered from 0 in the order given, before the generated floes.
+
+    Exactly one of `vertices` (any convex shape) and `outline` (a floe, drawn in plan) is given.
+    """
+
+    vertices: Annotated[list[Vector3], Field(min_length=1)] | None = key(
+        None, "m",
+        "Core in body coordinates, to be dilated: one vertex is a sphere, two are a capsule, more are their "
+        "convex hull.",
+    )
+    outline: Annotated[list[Vector2], Field(min_length=3)] | None = key(
+        None, "m", "Outer outline in plan, convex, in world coordinates, instead of `vertices`."
+    )
+    dilated_radius: Positive | None = key(
+        None, "m", "Dilated radius; that of `[ice]` unless given. At most half the thickness of an outline."
+    )
+    thickness: Positive | None = key(
+        None, "m", "Outer thickness, of an outline only; that of `[ice]` unless given."
+    )
+    position: Vector2 | Vector3 | None = key(
+        None, "m",
+        "Of the centroid; `[0, 0, 0]` for `vertices`. An outline without it stays where it was drawn, one "
+        "with it is shifted there; without z it floats at equilibrium (z = 0 where the water is off).",
+        allowed="must be a list of 3 numbers, or of 2 for an outline that floats",
+    )
+    rotation: Vector3 = key(
+        (0.0, 0.0, 0.0), "rad", "Rotation vector: its direction is the axis, its length the angle."
+    )
+    velocity: Vector3 = key((0.0, 0.0, 0.0), "m/s", "Velocity of the centroid.")
+    angular_velocity: Vector3 = key((0.0, 0.0, 0.0), "rad/s", "Angular velocity about the world's axes.")
+    density: Positive | None = key(None, "kg/m3", "Density; that of `[ice]` unless given.")
+    elastic_modulus: Positive | None = key(None, "Pa", "Young's modulus; that of `[ice]` unless given.")
+    poisson_ratio: PoissonRatio | None = key(None, "", "Poisson's ratio; that of `[ice]` unless given.")
+    fixed: bool = key(False, "", "`true` holds the body where it is, whatever pushes it.")
+
+    def faults(self) -> list[Fault]:
+        found: list[Fault] = []
+        if self.vertices is None and self.outline is None:
+            found.append(((), "needs either vertices or outline"))
+        elif self.vertices is not None:
+            if self.outline is not None:
+                found.append((("outline",), "give either vertices or outline, not both"))
+            elif self.thickness is not None:
+                found.append((("thickness",), "belongs to an outline; vertices give the shape by themselves"))
+            if self.position is not None and len(self.position) != 3:
+                found.append((("position",), "must be a list of 3 numbers; only an outline finds its height"))
+        for motion in ("velocity", "angular_velocity"):
+            if self.fixed and any(getattr(self, motion)):
+                found.append(((motion,), "must be zero for a fixed body; or set fixed = false"))
+        return found

@@ -1,0 +1,41 @@
+"""Writing a case as TOML, every default explicit, so that it can be run again as it stands."""
+
+import re
+
+import tomli_w
+
+from dilatedem.case.schema import Case, Table
+
+# tomli-w puts every item of an array on a line of its own; an array of numbers reads better on one. A line
+# that ends in "[" can only begin an array: strings are written with their line ends escaped.
+_NUMBERS = re.compile(r"\[\n((?:\s+[-+.\w]+,\n)+)\s*\]")
+
+
+def dump(case: Case) -> str:
+    """The case as TOML text with units as comments; reading it gives the same case again.
+
+    Keys without a value (such as the floe count beside a floe size) are left out: TOML has no word for them.
+    """
+    blocks = [_line("title", case.title)]
+    for name in type(case).model_fields:
+        value = getattr(case, name)
+        if isinstance(value, Table):
+            blocks.append(_table(f"[{name}]", value))
+        elif isinstance(value, list):
+            blocks += [_table(f"[[{name}]]", item) for item in value]
+    return "\n".join(blocks)
+
+
+def _table(header: str, table: Table) -> str:
+    lines = [f"{header}\n"]
+    for name, field in type(table).model_fields.items():
+        value = getattr(table, name)
+        if value is not None:
+            lines.append(_line(name, value, field.json_schema_extra["unit"]))
+    return "".join(lines)
+
+
+def _line(name: str, value: object, unit: str = "") -> str:
+    text = tomli_w.dumps({name: value}).rstrip("\n")
+    text = _NUMBERS.sub(lambda match: f"[{', '.join(match[1].replace(',', ' ').split())}]", text)
+    return f"{text}  # {unit}\n" if unit and isinstance(value, int | float | tuple) else f"{text}\n"

@@ -1,0 +1,66 @@
+"""Clipping of convex polygons and segments in the contact plane.
+
+A polygon is rows 0..n-1 of a workspace (m, 3): plane coordinates u, v and a height h that is carried along linearly.
+"""
+
+from dilatedem.jit import device
+
+
+@device
+def clip_polygon(source, count, target, a, b, c, d):
+    """Keep the part of a polygon where a u + b v + c h <= d; returns its corner count in `target`."""
+    kept = 0
+    for i in range(count):
+        j = i + 1 if i + 1 < count else 0
+        si = a * source[i, 0] + b * source[i, 1] + c * source[i, 2] - d
+        sj = a * source[j, 0] + b * source[j, 1] + c * source[j, 2] - d
+        if si <= 0.0:
+            for m in range(3):
+                target[kept, m] = source[i, m]
+            kept += 1
+        if (si < 0.0 and sj > 0.0) or (si > 0.0 and sj < 0.0):
+            t = si / (si - sj)
+            for m in range(3):
+                target[kept, m] = source[i, m] + t * (source[j, m] - source[i, m])
+            kept += 1
+    return kept
+
+
+@device
+def polygon_centroid(polygon, count):
+    """Area, centroid u, v, h, and longest distance of two corners' projections from the centroid, doubled.
+
+    Area is 0 for fewer than three corners.
+    """
+    if count < 3:
+        return 0.0, 0.0, 0.0, 0.0, 0.0
+    area = 0.0
+    su = sv = sh = 0.0
+    for i in range(1, count - 1):
+        twice = (polygon[i, 0] - polygon[0, 0]) * (polygon[i + 1, 1] - polygon[0, 1]) - (
+            polygon[i + 1, 0] - polygon[0, 0]
+        ) * (polygon[i, 1] - polygon[0, 1])
+        area += 0.5 * twice
+        su += twice * (polygon[0, 0] + polygon[i, 0] + polygon[i + 1, 0])
+        sv += twice * (polygon[0, 1] + polygon[i, 1] + polygon[i + 1, 1])
+        sh += twice * (polygon[0, 2] + polygon[i, 2] + polygon[i + 1, 2])
+    if area <= 0.0:
+        return 0.0, 0.0, 0.0, 0.0, 0.0
+    s = 1.0 / (6.0 * area)
+    u, v, h = su * s, sv * s, sh * s
+    far = 0.0
+    for i in range(count):
+        far = max(far, (polygon[i, 0] - u) ** 2 + (polygon[i, 1] - v) ** 2)
+    return area, u, v, h, 2.0 * far**0.5
+
+
+@device
+def clip_interval(low, high, slope, value):
+    """The part of the interval low..high of t where slope t + value <= 0 (empty: high < low)."""
+    if slope > 0.0:
+        high = min(high, -value / slope)
+    elif slope < 0.0:
+        low = max(low, -value / slope)
+    elif value > 0.0:
+        high = low - 1.0
+    return low, high

@@ -1,0 +1,261 @@
+"""One contact patch per pair: where two dilated cores press on each other, a point, a segment of length L or a polygon of area A.
+
+The support features of both cores along the normal are projected on the contact plane and clipped by each other, then by the
+line where their gap closes: only the *penetrating* part counts, and the force acts at its centroid. A part narrower than the
+half-width of the Hertz contact of its own rounded rim is none: a sliver of a face is an edge, a stub of an edge is a corner.
+"""
+
+from math import sqrt
+
+from dilatedem.contact.clip import clip_interval, clip_polygon, polygon_centroid
+from dilatedem.contact.support import EDGE, FACE, PARALLEL, VERTEX, corner_feature, support_feature
+from dilatedem.jit import device
+from dilatedem.numerics.vector import add, along, cross, dot, load, norm, scale, sub, tangents
+from dilatedem.state.modes import Mode
+
+VERTEX_VERTEX, VERTEX_EDGE, VERTEX_FACE = int(Mode.VERTEX_VERTEX), int(Mode.VERTEX_EDGE), int(Mode.VERTEX_FACE)
+EDGE_CROSSING, EDGE_PARALLEL = int(Mode.EDGE_CROSSING), int(Mode.EDGE_PARALLEL)
+EDGE_FACE, FACE_FACE = int(Mode.EDGE_FACE), int(Mode.FACE_FACE)
+
+
+
+@device
+def _point(kind_a, kind_b):
+    """Mode of a contact at a point: the lower feature's corner on the other."""
+    high = max(kind_a, kind_b)
+    if min(kind_a, kind_b) == VERTEX:
+        return VERTEX_VERTEX if high == VERTEX else (VERTEX_EDGE if high == EDGE else VERTEX_FACE)
+    return VERTEX_FACE
+
+
+@device
+def _clip_by_face(vertex, shapes, face, origin, t1, t2, turn, source, count, target):
+    """Clip a polygon by the sides of a face; turn: 1 for a face seen counter-clockwise, -1 for clockwise. Returns count, side."""
+    first, last = shapes.loop_start[face], shapes.loop_start[face + 1]
+    swapped = False
+    for i in range(first, last):
+        p = add(origin, load(vertex, shapes.loop[i]))
+        q = add(origin, load(vertex, shapes.loop[i + 1 if i + 1 < last else first]))
+        pu, pv = dot(p, t1), dot(p, t2)
+        eu, ev = turn * (dot(q, t1) - pu), turn * (dot(q, t2) - pv)
+        if swapped:
+            count = clip_polygon(target, count, source, ev, -eu, 0.0, ev * pu - eu * pv)
+        else:
+            count = clip_polygon(source, count, target, ev, -eu, 0.0, ev * pu - eu * pv)
+        swapped = not swapped
+        if count == 0:
+            break
+    return count, swapped
+
+
+@device
+def _surface(vertex, face_normal, shapes, face, origin, normal, t1, t2, radius):
+    """Height along the normal of a face's dilated plane as h0 + hu u + hv v; radius < 0 for the face of b."""
+    m = load(face_normal, face)
+    mn = dot(m, normal)
+    hu, hv = -dot(m, t1) / mn, -dot(m, t2) / mn
+    p = add(origin, load(vertex, shapes.loop[shapes.loop_start[face]]))
+    return dot(p, normal) + radius - hu * dot(p, t1) - hv * dot(p, t2), hu, hv
+
+
+@device
+def _face_on_face(vertex, shapes, face_a, face_b, offset, normal, t1, t2, ra, plane, scratch):
+    """Penetrating polygon of two faces: area, extent, width before the gap was looked at, centroid u, v, height of a there.
+
+    plane: height of b's dilated surface h0, hu, hv; face_b < 0: it has no sides.
+    """
+    first = shapes.loop_start[face_a]
+    count = shapes.loop_start[face_a + 1] - first
+    source, target = scratch[0], scratch[1]
+    for i in range(count):
+        p = load(vertex, shapes.loop[first + i])
+        source[i, 0], source[i, 1], source[i, 2] = dot(p, t1), dot(p, t2), dot(p, normal) + ra
+    swapped = False
+    if face_b >= 0:
+        count, swapped = _clip_by_face(vertex, shapes, face_b, offset, t1, t2, -1.0, source, count, target)
+    if swapped:
+        source, target = target, source
+    whole, _, _, _, extent = polygon_centroid(source, count)
+    width = whole / extent if extent > 0.0 else 0.0
+    h0, hu, hv = plane
+    count = clip_polygon(source, count, target, hu, hv, -1.0, -h0)
+    area, u, v, h, extent = polygon_centroid(target, count)
+    return area, extent, width, u, v, h
+
+
+@device
+def _edge_on_face(vertex, shapes, p, q, face, origin, turn, t1, t2, hp, hq, plane, sign):
+    """Part of the edge p q that penetrates a face: its interval of 0..1.
+
+    p, q: ends, relative to a's centroid; hp, hq: heights of the edge's dilated surface there; sign: 1 where the edge is a's
+    (b's surface lies above it), -1 where it is b's. plane: the face's dilated surface; face < 0: it has no sides.
+    """
+    pu, pv = dot(p, t1), dot(p, t2)
+    du, dv = dot(q, t1) - pu, dot(q, t2) - pv
+    low, high = 0.0, 1.0
+    if face >= 0:
+        first, last = shapes.loop_start[face], shapes.loop_start[face + 1]
+        for i in range(first, last):
+            s = add(origin, load(vertex, shapes.loop[i]))
+            e = add(origin, load(vertex, shapes.loop[i + 1 if i + 1 < last else first]))
+            su, sv = dot(s, t1), dot(s, t2)
+            eu, ev = turn * (dot(e, t1) - su), turn * (dot(e, t2) - sv)
+            low, high = clip_interval(low, high, ev * du - eu * dv, ev * (pu - su) - eu * (pv - sv))
+            if high <= low:
+                return 1.0, 0.0
+    h0, hu, hv = plane
+    gap_p = sign * (h0 + hu * pu + hv * pv - hp)
+    gap_q = sign * (h0 + hu * (pu + du) + hv * (pv + dv) - hq)
+    low, high = clip_interval(low, high, gap_q - gap_p, gap_p)
+    return low, high
+
+
+@device
+def _edge_along_edge(pa, qa, pb, qb, normal, ra, rb):
+    """Common penetrating part of two near-parallel edges: interval of 0..1 along a's edge, and at its middle the height between the
+    dilated surfaces and their overlap."""
+    e = sub(qa, pa)
+    length2 = dot(e, e)
+    tp, tq = dot(sub(pb, pa), e) / length2, dot(sub(qb, pa), e) / length2
+    low, high = max(0.0, min(tp, tq)), min(1.0, max(tp, tq))
+    if high <= low:
+        return 1.0, 0.0, 0.0, 0.0
+    ha, sa = dot(pa, normal) + ra, dot(e, normal)
+    sb = dot(sub(qb, pb), normal) / (tq - tp)
+    hb = dot(pb, normal) - rb - sb * tp
+    low, high = clip_interval(low, high, sb - sa, hb - ha)
+    middle = 0.5 * (low + high)
+    return low, high, 0.5 * (ha + hb + (sa + sb) * middle), ha - hb + (sa - sb) * middle
+
+
+@device
+def contact_patch(vertex, face_normal, shapes, corners, corner_a, corner_b, a, b, offset, normal, pa, pb, overlap, scratch):
+    """Mode of the contact of a and b, whether a has the lower feature, point of application, overlap there, size, sine of the edges' angle.
+
+    vertex (v, 3), face_normal (f, 3): turned to world directions; corner_a, corner_b (4,): closest corners; offset, normal, pa, pb:
+    centroid of b, unit normal, witness points on the cores, all relative to a's centroid [m]; overlap > 0 [m];
+    scratch (2, MOST_CORNERS, 3). Features rank corner, edge, face. overlap: the
+    deepest; for a patch, what holds at its centroid is returned. size: length [m] or area [m2] of the penetrating part, 1 for a
+    point. b may be a half space (`pb` is then on its plane). Liu 2015, section 2.
+    """
+    ra, rb = shapes.radius[a], shapes.radius[b]
+    middle = along(scale(0.5, add(pa, pb)), 0.5 * (ra - rb), normal)
+    half_space = shapes.kind[b] != 0
+    narrow = sqrt((ra if half_space else min(ra, rb)) * overlap)
+    t1, t2 = tangents(normal)
+    kind_a, i, j = support_feature(vertex, face_normal, shapes, a, corner_a, max(corners, 1), normal)
+    if half_space:
+        kind_b, m, n = FACE, -1, -1
+        plane = (dot(pb, normal), 0.0, 0.0)
+    else:
+        kind_b, m, n = support_feature(vertex, face_normal, shapes, b, corner_b, max(corners, 1), scale(-1.0, normal))
+        plane = (0.0, 0.0, 0.0)
+        if kind_b == FACE:
+            plane = _surface(vertex, face_normal, shapes, m, offset, normal, t1, t2, -rb)
+
+    if kind_a == FACE and kind_b == FACE:
+        area, extent, width, u, v, h = _face_on_face(vertex, shapes, i, m, offset, normal, t1, t2, ra, plane, scratch)
+        if area > 0.0:
+            hb = plane[0] + plane[1] * u + plane[2] * v
+            point = along(along(scale(u, t1), v, t2), 0.5 * (h + hb), normal)
+            if area >= narrow * extent:
+                return FACE_FACE, True, point, h - hb, area, 0.0
+            if extent >= narrow:
+                return (EDGE_PARALLEL if width < narrow else EDGE_FACE), ra <= rb, point, h - hb, extent, 0.0
+            return VERTEX_FACE, ra <= rb, point, overlap, 1.0, 0.0
+    elif kind_a == EDGE and kind_b == FACE:
+        p, q = load(vertex, i), load(vertex, j)
+        hp, hq = dot(p, normal) + ra, dot(q, normal) + ra
+        low, high = _edge_on_face(vertex, shapes, p, q, m, offset, -1.0, t1, t2, hp, hq, plane, 1.0)
+        if high > low:
+            centre = along(p, 0.5 * (low + high), sub(q, p))
+            u, v = dot(centre, t1), dot(centre, t2)
+            ha, hb = dot(centre, normal) + ra, plane[0] + plane[1] * u + plane[2] * v
+            point = along(along(scale(u, t1), v, t2), 0.5 * (ha + hb), normal)
+            mode, length, depth = _line((high - low) * norm(sub(q, p)), narrow, ha - hb, overlap)
+            return mode, True, point, depth, length, 0.0
+    elif kind_a == FACE and kind_b == EDGE:
+        p, q = add(offset, load(vertex, m)), add(offset, load(vertex, n))
+        hp, hq = dot(p, normal) - rb, dot(q, normal) - rb
+        plane = _surface(vertex, face_normal, shapes, i, (0.0, 0.0, 0.0), normal, t1, t2, ra)
+        low, high = _edge_on_face(
+            vertex, shapes, p, q, i, (0.0, 0.0, 0.0), 1.0, t1, t2, hp, hq, plane, -1.0
+        )
+        if high > low:
+            centre = along(p, 0.5 * (low + high), sub(q, p))
+            u, v = dot(centre, t1), dot(centre, t2)
+            ha, hb = plane[0] + plane[1] * u + plane[2] * v, dot(centre, normal) - rb
+            point = along(along(scale(u, t1), v, t2), 0.5 * (ha + hb), normal)
+            mode, length, depth = _line((high - low) * norm(sub(q, p)), narrow, ha - hb, overlap)
+            return mode, False, point, depth, length, 0.0
+    elif kind_a == VERTEX and kind_b == FACE:
+        if half_space or _inside(vertex, shapes, pa, m, offset, t1, t2, -1.0):
+            return VERTEX_FACE, True, middle, overlap, 1.0, 0.0
+    elif kind_a == FACE and kind_b == VERTEX:
+        if _inside(vertex, shapes, pb, i, (0.0, 0.0, 0.0), t1, t2, 1.0):
+            return VERTEX_FACE, False, middle, overlap, 1.0, 0.0
+    elif kind_a == EDGE and kind_b == EDGE:
+        mode, point, depth, size, sine = _edges(
+            vertex, i, j, m, n, offset, normal, ra, rb, narrow, middle, overlap, corners, corner_a, corner_b
+        )
+        if mode >= 0:
+            return mode, True, point, depth, size, sine
+    elif kind_a == VERTEX and kind_b == VERTEX:
+        return VERTEX_VERTEX, True, middle, overlap, 1.0, 0.0
+    # the features along the normal do not face each other: what the closest corners span decides
+    kind_a, i, j = corner_feature(corner_a, max(corners, 1))
+    kind_b, m, n = corner_feature(corner_b, max(corners, 1))
+    if kind_a == EDGE and kind_b == EDGE:
+        mode, point, depth, size, sine = _edges(
+            vertex, i, j, m, n, offset, normal, ra, rb, narrow, middle, overlap, corners, corner_a, corner_b
+        )
+        if mode >= 0:
+            return mode, True, point, depth, size, sine
+        return VERTEX_EDGE, True, middle, overlap, 1.0, 0.0
+    return _point(kind_a, kind_b), kind_a <= kind_b, middle, overlap, 1.0, 1.0
+
+
+@device
+def _line(length, narrow, depth, overlap):
+    """An edge on a face, or a corner where it is too short to be one: mode, size, and the overlap that counts."""
+    if length >= narrow:
+        return EDGE_FACE, length, depth
+    return VERTEX_FACE, 1.0, overlap
+
+
+@device
+def _inside(vertex, shapes, point, face, origin, t1, t2, turn):
+    """Whether a point projects into a face (turn as in `_clip_by_face`)."""
+    first, last = shapes.loop_start[face], shapes.loop_start[face + 1]
+    for i in range(first, last):
+        p = add(origin, load(vertex, shapes.loop[i]))
+        q = add(origin, load(vertex, shapes.loop[i + 1 if i + 1 < last else first]))
+        e, s = sub(q, p), sub(point, p)
+        if turn * (dot(e, t1) * dot(s, t2) - dot(e, t2) * dot(s, t1)) < 0.0:
+            return False
+    return True
+
+
+@device
+def _edges(vertex, i, j, m, n, offset, normal, ra, rb, narrow, middle, overlap, corners, corner_a, corner_b):
+    """Two edges, crossing or along each other; mode -1 where neither holds (they only meet at an end)."""
+    pa, qa = load(vertex, i), load(vertex, j)
+    pb, qb = add(offset, load(vertex, m)), add(offset, load(vertex, n))
+    ea, eb = sub(qa, pa), sub(qb, pb)
+    c = dot(cross(ea, eb), normal)
+    sine = abs(c) / sqrt(dot(ea, ea) * dot(eb, eb))
+    if sine > PARALLEL:
+        spans_a, _, _ = corner_feature(corner_a, max(corners, 1))
+        spans_b, _, _ = corner_feature(corner_b, max(corners, 1))
+        if corners == 0 or (spans_a == EDGE and spans_b == EDGE):
+            return EDGE_CROSSING, middle, overlap, 1.0, sine
+        return -1, middle, overlap, 1.0, 0.0
+    low, high, h, depth = _edge_along_edge(pa, qa, pb, qb, normal, ra, rb)
+    if high <= low:
+        return -1, middle, overlap, 1.0, 0.0
+    length = (high - low) * norm(ea)
+    centre = along(pa, 0.5 * (low + high), ea)
+    point = along(centre, h - dot(centre, normal), normal)
+    if length >= narrow:
+        return EDGE_PARALLEL, point, depth, length, 0.0
+    return VERTEX_EDGE, point, overlap, 1.0, 0.0

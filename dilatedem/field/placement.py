@@ -1,0 +1,213 @@
+"""The ice field at t = 0: floes cut from Voronoi cells, of exact concentration, clear of the structures.
+
+Each cell is shrunk about its centroid by one common factor (physics 7). What counts as ice is the plan of the
+*dilated* floe, whose corners are round: its core outline, of area A and perimeter L, covers A + L r + pi r^2.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import product
+
+import numpy as np
+import shapely
+from numpy.typing import ArrayLike
+from scipy.optimize import brentq
+
+from dilatedem.field.tessellation import voronoi_cells
+from dilatedem.geometry import outline as plan
+from dilatedem.geometry.polyhedron import Polyhedron
+
+# A floe whose core vanishes when it is made smaller by this part counts as too small.
+VANISHING = 1e-12
+
+
+@dataclass(frozen=True)
+class Disk:
+    """Plan of a pile: centre (2,) and outer radius [m]."""
+
+    center: tuple[float, float]
+    radius: float
+
+
+@dataclass(frozen=True)
+class HalfPlane:
+    """Plan of a plane structure through `point` (2,) [m]: solid on the side away from its `normal` (2,).
+
+    It has no periodic images: with one, a solid half-plane would fill a periodic domain.
+    """
+
+    point: tuple[float, float]
+    normal: tuple[float, float]
+
+
+@dataclass(frozen=True, eq=False)
+class Region:
+    """Plan of any other body: its outline (n, 2) [m]."""
+
+    outline: np.ndarray
+
+
+Obstacle = Disk | HalfPlane | Region
+Groups = list[tuple[np.ndarray, np.ndarray]]  # cells (m,) of n sides and their corners (m, n, 2), for each n
+
+
+@dataclass(frozen=True, eq=False)
+class FloeField:
+    """Floes in plan.
+
+    outlines       outer outlines (n, 2) [m] in world coordinates, centroids inside a periodic domain
+    plan_area      (floes,) plan area of each dilated floe [m2]
+    factor         by which the cells were shrunk
+    concentration  dilated plan area of all floes, those left out included, over the area of the domain
+    left_out       number of floes left out because they touched an obstacle
+    """
+
+    outlines: list[np.ndarray]
+    plan_area: np.ndarray
+    factor: float
+    concentration: float
+    left_out: int
+
+
+def ice_field(
+    size: ArrayLike,
+    count: int,
+    concentration: float,
+    *,
+    periodic: Sequence[bool],
+    seed: int,
+    dilated_radius: float,
+    obstacles: Sequence[Obstacle] = (),
+) -> FloeField:
+    """`count` floes of `concentration` (between 0 and 1) in a domain of `size` (2,) [m] about the origin.
+
+    The concentration is met by all floes together, before those that touch an obstacle are left out. Raises
+    ValueError when a floe gets too small for the dilated radius [m], or when the concentration cannot be
+    reached.
+    """
+    size = np.asarray(size, dtype=float)
+    if not 0.0 < concentration < 1.0:
+        raise ValueError(f"concentration = {concentration:g}: must lie between 0 and 1")
+    cells = voronoi_cells(size, count, periodic, seed)
+    groups = _by_sides(cells)
+    domain_area = float(np.prod(size))
+    factor = _shrink_factor(groups, concentration * domain_area, domain_area, dilated_radius)
+    plan_area, _ = _dilated_areas(groups, count, factor, dilated_radius)
+    # a hair below, where a floe whose core is just vanishing shows itself: the area jumps there
+    _, too_small = _dilated_areas(groups, count, factor * (1.0 - VANISHING), dilated_radius)
+    if too_small.any():
+        raise ValueError(
+            f"{too_small.sum()} of {count} floes are too narrow for the dilated radius {dilated_radius:g} m: "
+            "take a smaller dilated_radius, larger floes, or another seed"
+        )
+
+    outlines: list[np.ndarray] = [np.empty(0)] * count
+    for index, corners in groups:
+        middle = plan.centroid(corners)
+        shrunk = middle[:, None] + factor * (corners - middle[:, None])
+        home = np.where(periodic, -size * np.floor(middle / size + 0.5), 0.0)
+        for floe, outline in zip(index, shrunk + home[:, None], strict=True):
+            outlines[floe] = outline
+    touching = _touching(outlines, obstacles, size, periodic)
+    return FloeField(
+        outlines=[outline for outline, touches in zip(outlines, touching, strict=True) if not touches],
+        plan_area=plan_area[~touching],
+        factor=factor,
+        concentration=float(plan_area.sum() / domain_area),
+        left_out=int(touching.sum()),
+    )
+
+
+def equilibrium_height(outer: Polyhedron, density: float, water_density: float) -> float:
+    """z [m] of the centroid of a floe that floats flat: exact for a right prism centred on the origin.
+
+    outer is the sharp outer polyhedron in body coordinates; its draft is the part density / water_density of
+    its height. Raises ValueError for ice too heavy to float.
+    """
+    if not density < water_density:
+        raise ValueError(
+            f"density = {density:g} kg/m3: must be below that of the water, {water_density:g} kg/m3, to float"
+        )
+    bottom, top = outer.vertices[:, 2].min(), outer.vertices[:, 2].max()
+    return float(-bottom - (top - bottom) * density / water_density)
+
+
+def _by_sides(cells: list[np.ndarray]) -> Groups:
+    """The cells sorted by their number of sides, so that they can be worked as arrays."""
+    sides = np.array([len(cell) for cell in cells])
+    groups = []
+    for n in np.unique(sides):
+        index = np.flatnonzero(sides == n)
+        groups.append((index, np.stack([cells[i] for i in index])))
+    return groups
+
+
+def _dilated_areas(groups: Groups, count: int, factor: float, radius: float) -> tuple[np.ndarray, np.ndarray]:
+    """(count,) plan areas [m2] of dilated floes made of cells shrunk by `factor`, and which have no core.
+
+    One without a core counts with its sharp outline, so that the search for the factor can go on.
+    """
+    area = np.zeros(count)
+    without_core = np.ones(count, dtype=bool)
+    for index, corners in groups:
+        area[index] = factor**2 * plan.area(corners)
+        # shrinking, then eroding by r, is eroding by r/factor, then shrinking
+        for eroded in plan.erode_together(corners, radius / factor):
+            core_area, core_perimeter = plan.area(eroded.corners), plan.perimeter(eroded.corners)
+            floe = index[eroded.index]
+            area[floe] = factor**2 * core_area + factor * core_perimeter * radius + np.pi * radius**2
+            without_core[floe] = False
+    return area, without_core
+
+
+def _shrink_factor(groups: Groups, ice_area: float, domain_area: float, radius: float) -> float:
+    """The factor at which the dilated floes cover `ice_area` [m2] together."""
+    count = sum(len(index) for index, _ in groups)
+
+    def excess(factor: float) -> float:
+        return float(_dilated_areas(groups, count, factor, radius)[0].sum()) - ice_area
+
+    # Sharp outlines cover factor^2 of the domain, and round corners only take away from that.
+    lowest = np.sqrt(ice_area / domain_area)
+    if excess(1.0) <= 0.0:
+        reached = (excess(1.0) + ice_area) / domain_area
+        raise ValueError(
+            f"concentration = {ice_area / domain_area:g} cannot be reached: the round corners of the floes "
+            f"leave at most {reached:.6g}; take a lower concentration or a smaller dilated_radius"
+        )
+    if excess(lowest) >= 0.0:  # sharp corners (radius 0), up to round-off
+        return float(lowest)
+    return float(brentq(excess, lowest, 1.0, xtol=1e-15, rtol=4.0 * np.finfo(float).eps))
+
+
+def _touching(
+    outlines: list[np.ndarray], obstacles: Sequence[Obstacle], size: np.ndarray, periodic: Sequence[bool]
+) -> np.ndarray:
+    """(floes,) whether an outline touches or overlaps an obstacle or a periodic image of one."""
+    sides = [len(outline) for outline in outlines]
+    corners = np.concatenate(outlines)
+    start = np.concatenate(([0], np.cumsum(sides)[:-1]))
+    touching = np.zeros(len(outlines), dtype=bool)
+    polygons = shapely.polygons(shapely.linearrings(corners, indices=np.repeat(np.arange(len(sides)), sides)))
+    for obstacle in obstacles:
+        if isinstance(obstacle, HalfPlane):
+            height = (corners - np.asarray(obstacle.point)) @ np.asarray(obstacle.normal)
+            touching |= np.minimum.reduceat(height, start) <= 0.0
+            continue
+        if isinstance(obstacle, Disk):
+            solid, reach = shapely.Point(obstacle.center), obstacle.radius
+        else:
+            solid, reach = shapely.Polygon(obstacle.outline), 0.0
+        for shift in _image_shifts(np.array(solid.centroid.coords[0]), size, periodic):
+            image = shapely.transform(solid, lambda xy, by=shift: xy + by)
+            touching |= shapely.dwithin(polygons, image, reach)
+    return touching
+
+
+def _image_shifts(centre: np.ndarray, size: np.ndarray, periodic: Sequence[bool]) -> list[np.ndarray]:
+    """Shifts (2,) [m] that bring something at `centre` into the domain and to its images beside it."""
+    home = np.where(periodic, -size * np.floor(centre / size + 0.5), 0.0)
+    steps = [(-1.0, 0.0, 1.0) if is_periodic else (0.0,) for is_periodic in periodic]
+    return [home + size * np.array(step) for step in product(*steps)]

@@ -1,0 +1,117 @@
+"""Voronoi cells of random points: the pattern of cracks that the floes are cut from (Liu 2015, section 3.1).
+
+Both kinds of boundary come from copies of the points around the domain. Copies moved by a period make the
+cells periodic: a cell may stick out across the seam and is kept whole. Mirrored copies make the domain's edge
+itself a border of the cells: a point and its mirror image are equally far from the edge, and no other mirror
+image can be nearer to a place inside. So neither kind needs clipping, and the cells tile the domain to
+round-off.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.spatial import Voronoi
+
+# Width of the belt of copies around the domain at the first try, in mean spacings of the points. Too narrow a
+# belt is noticed and widened, so this only sets the cost.
+BELT = 4.0
+# Corners of a cell nearer than this, relative to the mean spacing, are one corner: Voronoi vertices where
+# more than three cells meet (every one on a mirrored edge) come out of the hull several times, round-off
+# apart.
+RESOLUTION = 1e-9
+
+
+def voronoi_cells(
+    size: ArrayLike, count: int, periodic: Sequence[bool], seed: int | np.random.Generator
+) -> list[np.ndarray]:
+    """Voronoi cells of `count` points drawn uniformly in the domain.
+
+    size      (2,) [m], the domain, centred on the origin
+    periodic  whether the x and the y boundaries are periodic; cells end at the others
+    seed      of numpy's default generator: the same seed gives the same cells
+
+    Returns `count` convex counter-clockwise outlines (n, 2) [m] that together tile the domain.
+    """
+    size = np.asarray(size, dtype=float)
+    if count < 1:
+        raise ValueError(f"floe count = {count}: must be at least 1")
+    points = (np.random.default_rng(seed).random((count, 2)) - 0.5) * size
+    return cells_of_points(points, size, periodic)
+
+
+def cells_of_points(points: np.ndarray, size: np.ndarray, periodic: Sequence[bool]) -> list[np.ndarray]:
+    """The cells of given `points` (n, 2) [m] inside the domain; see voronoi_cells."""
+    spacing = float(np.sqrt(np.prod(size) / len(points)))
+    belt = BELT * spacing
+    while True:
+        around = _with_copies(points, size, periodic, belt)
+        diagram = Voronoi(around)
+        corner, start = _sorted_corners(diagram, len(points))
+        if _belt_suffices(diagram, corner, start, points, size, belt):
+            break
+        belt *= 2.0
+
+    position = diagram.vertices[corner]
+    for axis in range(2):
+        if not periodic[axis]:
+            half = 0.5 * size[axis]
+            on_edge = np.abs(np.abs(position[:, axis]) - half) <= RESOLUTION * spacing
+            position[on_edge, axis] = np.copysign(half, position[on_edge, axis])
+    cell = np.repeat(np.arange(len(points)), np.diff(start))
+    ahead = _next_in_cell(start)
+    distinct = np.linalg.norm(position[ahead] - position, axis=1) > RESOLUTION * spacing
+    split = np.cumsum(np.bincount(cell[distinct], minlength=len(points)))[:-1]
+    return np.split(position[distinct], split)
+
+
+def _with_copies(points: np.ndarray, size: np.ndarray, periodic: Sequence[bool], belt: float) -> np.ndarray:
+    """The points, then their periodic or mirror images within `belt` [m] of the domain."""
+    for axis in range(2):
+        half = 0.5 * size[axis]
+        copies = [points]
+        # image k lies k periods away; mirror images of mirror images alternate with plain shifts
+        for k in range(1, int(np.ceil(belt / size[axis])) + 1):
+            for sign in (-1.0, 1.0):
+                image = points.copy()
+                if not periodic[axis] and k % 2 == 1:
+                    image[:, axis] *= -1.0
+                image[:, axis] += sign * k * size[axis]
+                copies.append(image[np.abs(image[:, axis]) <= half + belt])
+        points = np.concatenate(copies)
+    return points
+
+
+def _sorted_corners(diagram: Voronoi, count: int) -> tuple[np.ndarray, np.ndarray]:
+    """Voronoi vertices (k,) around each of the first `count` points, counter-clockwise, and starts."""
+    regions = [diagram.regions[r] for r in diagram.point_region[:count]]
+    start = np.concatenate(([0], np.cumsum([len(region) for region in regions])))
+    corner = np.fromiter((v for region in regions for v in region), dtype=np.int64, count=start[-1])
+    cell = np.repeat(np.arange(count), np.diff(start))
+    away = diagram.vertices[corner] - diagram.points[cell]
+    return corner[np.lexsort((np.arctan2(away[:, 1], away[:, 0]), cell))], start
+
+
+def _belt_suffices(
+    diagram: Voronoi, corner: np.ndarray, start: np.ndarray, points: np.ndarray, size: np.ndarray, belt: float
+) -> bool:
+    """Whether no copy outside the belt could cut a cell.
+
+    A Voronoi vertex stands if the circle about it through its points holds no other point; so that circle
+    must lie where all copies are present.
+    """
+    if (corner < 0).any():
+        return False
+    cell = np.repeat(np.arange(len(points)), np.diff(start))
+    position = diagram.vertices[corner]
+    reach = np.linalg.norm(position - points[cell], axis=1)[:, None]
+    return bool((np.abs(position) + reach <= 0.5 * size + belt).all())
+
+
+def _next_in_cell(start: np.ndarray) -> np.ndarray:
+    """(k,) index of the corner that follows each corner around its own cell."""
+    ahead = np.arange(1, start[-1] + 1)
+    ahead[start[1:] - 1] = start[:-1]
+    return ahead

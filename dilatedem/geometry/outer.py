@@ -1,0 +1,116 @@
+"""The outer shape of a dilated core: a sharp polyhedron of the dilated body's volume and centroid.
+
+Water loads and pictures use it in place of the rounded solid (physics 5): its faces are the core's moved
+outwards by the dilated radius, and the volume that sharp edges add is taken back by one uniform scaling.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.spatial import HalfspaceIntersection, QhullError
+
+from dilatedem.geometry import outline as plan
+from dilatedem.geometry.mass import edge_arcs, vertex_directions
+from dilatedem.geometry.polyhedron import Polyhedron, assemble, centroid, convex_hull, prism
+from dilatedem.geometry.polyhedron import volume as polyhedron_volume
+
+# Sides of the polygon that stands for a circle in the outer shape of spheres and capsules, a multiple of 4:
+# 266 vertices on a sphere, its facets 0.9 % of the radius off before the volume is put right.
+CIRCLE_SIDES = 24
+# Edges and corners that would reach further than this many radii from the core are bevelled there.
+SPIKE_LIMIT = plan.MITRE_LIMIT
+# Cosine between normals below which two faces count as square, so that the core is worked as a prism.
+SQUARE = 1e-12
+
+
+def outer_polyhedron(
+    core: Polyhedron, radius: float, volume: float, *, centre: ArrayLike = (0.0, 0.0, 0.0)
+) -> Polyhedron:
+    """Sharp outer shape of `core` dilated by `radius` [m], of exactly the given `volume` [m3].
+
+    Its centroid is put at `centre` (3,) [m], the centroid of the dilated body (the origin in body
+    coordinates): a floe's centre of buoyancy then lies straight over its centre of mass when it floats flat.
+    """
+    if core.dimension < 2:
+        sharp = _round_hull(core, radius)
+    elif radius == 0.0:
+        sharp = core
+    else:
+        sharp = _offset_prism(core, radius) or _offset_solid(core, radius)
+    sharp = sharp.translated(-centroid(sharp))
+    return sharp.scaled((volume / polyhedron_volume(sharp)) ** (1.0 / 3.0)).translated(centre)
+
+
+def _round_hull(core: Polyhedron, radius: float) -> Polyhedron:
+    """A sphere or a capsule as two poles with rings of CIRCLE_SIDES points stacked between them."""
+    first, last = core.vertices[0], core.vertices[-1]
+    axis = last - first if core.dimension == 1 else np.array([0.0, 0.0, 1.0])
+    axis = axis / np.linalg.norm(axis)
+    across = np.cross(axis, np.eye(3)[np.abs(axis).argmin()])
+    across /= np.linalg.norm(across)
+    step = 2.0 * np.pi / CIRCLE_SIDES
+    around = step * np.arange(CIRCLE_SIDES)
+    circle = np.outer(np.cos(around), across) + np.outer(np.sin(around), np.cross(axis, across))
+
+    latitudes = step * np.arange(1 - CIRCLE_SIDES // 4, CIRCLE_SIDES // 4)
+    rings = [(first, latitude) for latitude in latitudes if latitude <= 0.0]
+    upper = latitudes >= 0.0 if core.dimension == 1 else latitudes > 0.0  # a sphere has one equator
+    rings += [(last, latitude) for latitude in latitudes[upper]]
+    points = [at + radius * (np.sin(lat) * axis + np.cos(lat) * circle) for at, lat in rings]
+    vertices = np.concatenate([(first - radius * axis)[None], *points, (last + radius * axis)[None]])
+
+    here = np.arange(CIRCLE_SIDES)
+    following = np.roll(here, -1)
+    start = 1 + CIRCLE_SIDES * np.arange(len(rings))
+    top = np.full(CIRCLE_SIDES, len(vertices) - 1)
+    faces = list(np.column_stack((np.zeros_like(here), 1 + following, 1 + here)))
+    for low in start[:-1]:
+        high = low + CIRCLE_SIDES
+        faces += list(np.column_stack((low + here, low + following, high + following, high + here)))
+    faces += list(np.column_stack((start[-1] + here, start[-1] + following, top)))
+    return assemble(vertices, faces)
+
+
+def _offset_prism(core: Polyhedron, radius: float) -> Polyhedron | None:
+    """Plates and right prisms (every floe), by their outline; None for any other core.
+
+    A core is such a prism when its first two faces are opposite and all others square to them.
+    """
+    up = core.normals[1]
+    sides = core.normals[2:]
+    if core.normals[0] @ up > SQUARE - 1.0 or (np.abs(sides @ up) > SQUARE).any():
+        return None
+    if core.dimension == 3 and len(core.faces) != len(core.faces[0]) + 2:
+        return None
+    across = np.cross(np.eye(3)[np.abs(up).argmin()], up)
+    across /= np.linalg.norm(across)
+    frame = np.array([across, np.cross(up, across), up])
+    local = core.vertices @ frame.T
+    loop = plan.mitred(local[core.faces[1], :2], radius)
+    offset = prism(loop, local[:, 2].min() - radius, local[:, 2].max() + radius)
+    return Polyhedron(offset.vertices @ frame, offset.edges, offset.faces, offset.normals @ frame)
+
+
+def _offset_solid(core: Polyhedron, radius: float) -> Polyhedron:
+    """Any other core, by the intersection of its half-spaces moved outwards."""
+    inside = core.vertices.mean(axis=0)
+    on_face = np.array([core.vertices[loop[0]] for loop in core.faces])
+    normals = [core.normals]
+    points = [on_face + radius * core.normals]
+
+    # Bevels: planes square to the middle of an edge's normals, or of a vertex's; blunt ones never feel them.
+    arcs = edge_arcs(core)
+    middles = ((arcs.middle, core.vertices[core.edges[:, 0]]), (vertex_directions(core, arcs), core.vertices))
+    for middle, at in middles:
+        direction = middle / np.linalg.norm(middle, axis=1, keepdims=True)
+        normals.append(direction)
+        points.append(at + SPIKE_LIMIT * radius * direction)
+    normal = np.concatenate(normals)
+    offset = np.einsum("ij,ij->i", np.concatenate(points) - inside, normal)
+    size = offset.max()
+    try:
+        corners = HalfspaceIntersection(np.column_stack((normal, -offset / size)), np.zeros(3)).intersections
+    except QhullError as fault:
+        raise ValueError("the body has no outer shape: its core is too close to degenerate") from fault
+    return convex_hull(inside + size * corners)

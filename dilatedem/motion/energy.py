@@ -1,0 +1,38 @@
+"""The energies of an instant: with the running sums of `state.record.Ledger` they close the ledger of a run."""
+
+from dilatedem.contact.laws import stored_energy
+from dilatedem.jit import kernel
+from dilatedem.motion.integrate import kinetic_energy
+from dilatedem.numerics.rotation import rotation_matrix
+from dilatedem.numerics.vector import dot, load
+from dilatedem.water.floating import submerge_tilted
+
+
+@kernel
+def instant_energies(model, bodies, pairs, workspace):
+    """Kinetic energy, energy of weight and of buoyancy, elastic energy of all contacts [J] (4 values).
+
+    Buoyancy: the water a body has displaced was lifted from the centre of buoyancy to the surface, -rho g V z_B, whose gradient
+    is the buoyancy force and moment of any convex body.
+    """
+    kinetic = weight = buoyancy = elastic = 0.0
+    surroundings, solids, wet = model.surroundings, model.solids, workspace.wet
+    q = bodies.orientation
+    for i in range(model.floating):
+        if solids.inverse_mass[i] == 0.0:
+            continue
+        kinetic += kinetic_energy(i, solids, bodies)
+        z = bodies.position[i, 2]
+        weight += solids.mass[i] * surroundings.gravity * z
+        if surroundings.water:
+            submerge_tilted(i, model, bodies, workspace, 0)
+            up = rotation_matrix(q[i, 0], q[i, 1], q[i, 2], q[i, 3])[2]
+            volume, cx, cy, cz = wet[i, 0], wet[i, 1], wet[i, 2], wet[i, 3]
+            height = z + up[0] * cx + up[1] * cy + up[2] * cz
+            buoyancy -= surroundings.water_density * surroundings.gravity * volume * height
+    for k in range(pairs.count[0]):
+        if pairs.overlap[k] > 0.0:
+            slip = load(pairs.slip, k)
+            elastic += stored_energy(pairs.stiffness[k], pairs.exponent[k], pairs.overlap[k])
+            elastic += 0.5 * pairs.shear_stiffness[k] * dot(slip, slip)
+    return kinetic, weight, buoyancy, elastic

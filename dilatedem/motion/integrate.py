@@ -1,0 +1,84 @@
+"""Motion of one body: velocity Verlet in translation, its counterpart with quaternions in rotation.
+
+Both are second order, also under velocity-dependent forces: those see a velocity predicted for the same instant. The work of every
+force over a step is then exactly force x velocity x dt, so that the ledger closes. Rotation keeps the angular momentum in
+world axes as its state: without torque |L| cannot change.
+"""
+
+from math import sqrt
+
+from dilatedem.jit import device, item
+from dilatedem.numerics.rotation import rotation_matrix, to_body, to_world, turned
+from dilatedem.numerics.vector import along, cross, dot, load, norm, store
+
+
+@item
+def _times(matrix, i, v):
+    """matrix[i] v for an (n, 3, 3) array."""
+    return (
+        matrix[i, 0, 0] * v[0] + matrix[i, 0, 1] * v[1] + matrix[i, 0, 2] * v[2],
+        matrix[i, 1, 0] * v[0] + matrix[i, 1, 1] * v[1] + matrix[i, 1, 2] * v[2],
+        matrix[i, 2, 0] * v[0] + matrix[i, 2, 1] * v[1] + matrix[i, 2, 2] * v[2],
+    )
+
+
+@item
+def spin_of(i, solids, orientation, momentum):
+    """Angular velocity [rad/s, world axes] of body i with angular momentum `momentum` [kg m2/s, world axes]."""
+    R = rotation_matrix(orientation[i, 0], orientation[i, 1], orientation[i, 2], orientation[i, 3])
+    return to_world(R, _times(solids.inverse_inertia, i, to_body(R, momentum)))
+
+
+@item
+def drift(i, dt, solids, bodies, reach, frame):
+    """Half a kick and the whole move of body i; velocities become a prediction for the end of the step.
+
+    frame (2,) [m/s]: where paths are measured. Returns the distance that any of its points moved at most, in that frame [m].
+    """
+    inverse_mass = solids.inverse_mass[i]
+    kick = 0.5 * dt * inverse_mass
+    force = load(bodies.force, i)
+    middle = along(load(bodies.velocity, i), kick, force)
+    store(bodies.middle_velocity, i, middle)
+    store(bodies.velocity, i, along(middle, kick, force))
+    store(bodies.position, i, along(load(bodies.position, i), dt, middle))
+
+    torque = load(bodies.torque, i)
+    momentum = along(load(bodies.angular_momentum, i), 0.5 * dt, torque)
+    store(bodies.middle_angular_momentum, i, momentum)
+    q = bodies.orientation
+    R = rotation_matrix(q[i, 0], q[i, 1], q[i, 2], q[i, 3])
+    own = to_body(R, momentum)
+    # spin in the middle of the step, from Euler's equation in the body frame
+    own = along(own, 0.5 * dt, cross(own, _times(solids.inverse_inertia, i, own)))
+    spin = _times(solids.inverse_inertia, i, own)
+    store(bodies.middle_angular_velocity, i, to_world(R, spin))
+    w, x, y, z = turned((q[i, 0], q[i, 1], q[i, 2], q[i, 3]), spin, dt)
+    q[i, 0], q[i, 1], q[i, 2], q[i, 3] = w, x, y, z
+    store(bodies.angular_velocity, i, spin_of(i, solids, q, along(momentum, 0.5 * dt, torque)))
+
+    dx, dy = middle[0] - frame[0], middle[1] - frame[1]
+    return dt * (sqrt(dx * dx + dy * dy + middle[2] * middle[2]) + norm(spin) * reach)
+
+
+@item
+def kick(i, dt, solids, bodies):
+    """The second half of the kick of body i, by the loads at the end of the step."""
+    store(
+        bodies.velocity, i, along(load(bodies.middle_velocity, i), 0.5 * dt * solids.inverse_mass[i], load(bodies.force, i))
+    )
+    momentum = along(load(bodies.middle_angular_momentum, i), 0.5 * dt, load(bodies.torque, i))
+    store(bodies.angular_momentum, i, momentum)
+    store(bodies.angular_velocity, i, spin_of(i, solids, bodies.orientation, momentum))
+
+
+@device
+def kinetic_energy(i, solids, bodies):
+    """J; zero for a fixed body."""
+    if solids.inverse_mass[i] == 0.0:
+        return 0.0
+    v = load(bodies.velocity, i)
+    turning = dot(load(bodies.angular_momentum, i), load(bodies.angular_velocity, i))
+    return 0.5 * (solids.mass[i] * dot(v, v) + turning)
+
+

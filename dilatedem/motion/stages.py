@@ -1,0 +1,120 @@
+"""The stages of a time step over all bodies or pairs, one thread or several.
+
+A parallel loop's body is one call of an ordinary device function, and every item writes its own rows only: results do not depend
+on the number of threads. (Writes through a NamedTuple *inside* a prange would be lost without an error.)
+"""
+
+from dilatedem.contact.collide import collide
+from dilatedem.jit import by_team, device, item, prange, shared_loop
+from dilatedem.motion.integrate import drift, kick
+from dilatedem.state.clock import Status
+from dilatedem.water.floating import submerge
+from dilatedem.water.loads import body_loads
+
+TOO_FAST, TOO_DEEP = int(Status.TOO_FAST), int(Status.TOO_DEEP)
+
+#: a body that moves farther than this share of the pair list's limit in one step has left the realm of the step size
+LONGEST_MOVE = 0.1
+#: overlap, in units of the sum of both dilated radii, past which the run stops: there the cores are as deep in each other as the
+#: dilations are thick
+DEEPEST = 2.0
+
+
+@item
+def drift_bodies(dt, model, bodies, pairs, clock):
+    """Move all bodies; True, or False with the culprit in `clock` where one moves too far in a step."""
+    path, solids = bodies.path, model.solids
+    for i in range(model.floating):
+        if solids.inverse_mass[i] == 0.0:
+            path[i] += dt * (pairs.frame[0] ** 2 + pairs.frame[1] ** 2) ** 0.5
+            continue
+        moved = drift(i, dt, solids, bodies, model.shapes.reach[i], pairs.frame)
+        path[i] += moved
+        if not moved <= LONGEST_MOVE * pairs.limit[0]:  # also where it is no number
+            clock.status[0] = TOO_FAST
+            clock.culprit[0] = i
+            clock.culprit[1] = -1
+            clock.measure[0] = moved
+            return False
+    for i in range(model.floating, len(path)):
+        path[i] += dt * (pairs.frame[0] ** 2 + pairs.frame[1] ** 2) ** 0.5
+    return True
+
+
+@device
+def longest_path(bodies):
+    longest = 0.0
+    for i in range(len(bodies.path)):
+        longest = max(longest, bodies.path[i])
+    return longest
+
+
+@device
+def collide_block(block, blocks, count, dt, model, bodies, pairs, workspace):
+    """Evaluate one of `blocks` equal parts of the awake pairs, in its own clipping workspace."""
+    for w in range(count * block // blocks, count * (block + 1) // blocks):
+        collide(
+            workspace.awake[w], dt, model.shapes, workspace.vertex, workspace.face_normal, model.solids, bodies, pairs,
+            model.contact, model.surroundings, workspace.clip[block],
+        )  # fmt: skip
+
+
+@device
+def _collide_alone(team, count, dt, model, bodies, pairs, workspace):
+    collide_block(0, 1, count, dt, model, bodies, pairs, workspace)
+
+
+@shared_loop
+def _collide_shared(team, count, dt, model, bodies, pairs, workspace):
+    for block in prange(team.threads):
+        collide_block(block, team.threads, count, dt, model, bodies, pairs, workspace)
+
+
+#: (team, count, dt, model, bodies, pairs, workspace): evaluate the awake pairs
+collide_pairs = by_team(_collide_alone, _collide_shared)
+
+
+@item
+def load_and_kick_block(block, blocks, dt, model, bodies, workspace):
+    """All loads on one of `blocks` equal parts of the bodies, and the second half of their kick; dt = 0 only evaluates the loads."""
+    first, last = model.floating * block // blocks, model.floating * (block + 1) // blocks
+    wet = workspace.wet
+    if model.surroundings.water:
+        submerge(first, last, model, bodies, workspace, block)
+    for i in range(first, last):
+        force, torque, power = body_loads(i, model, bodies, wet)
+        for m in range(3):
+            bodies.force[i, m] = force[m] + bodies.contact_force[i, m]
+            bodies.torque[i, m] = torque[m] + bodies.contact_torque[i, m]
+        bodies.work_drag[i] += 0.5 * dt * (power + bodies.drag_power[i])
+        bodies.drag_power[i] = power
+        if dt > 0.0 and model.solids.inverse_mass[i] > 0.0:
+            kick(i, dt, model.solids, bodies)
+
+
+@device
+def _load_and_kick_alone(team, dt, model, bodies, workspace):
+    load_and_kick_block(0, 1, dt, model, bodies, workspace)
+
+
+@shared_loop
+def _load_and_kick_shared(team, dt, model, bodies, workspace):
+    for block in prange(team.threads):
+        load_and_kick_block(block, team.threads, dt, model, bodies, workspace)
+
+
+#: (team, dt, model, bodies, workspace): loads on all bodies and the end of their kick
+load_and_kick = by_team(_load_and_kick_alone, _load_and_kick_shared)
+
+
+@device
+def too_deep(count, shapes, pairs, workspace, clock):
+    """Look for an overlap past what the method can mean; status and culprits go to `clock`."""
+    for w in range(count):
+        k = workspace.awake[w]
+        limit = DEEPEST * (shapes.radius[pairs.a[k]] + shapes.radius[pairs.b[k]])
+        if pairs.overlap[k] > limit:
+            clock.status[0] = TOO_DEEP
+            clock.culprit[0], clock.culprit[1] = pairs.a[k], pairs.b[k]
+            clock.measure[0] = pairs.overlap[k]
+            return

@@ -1,0 +1,54 @@
+"""When an output is due: steps counted exactly, so that a resumed run writes at the same steps."""
+
+import math
+from dataclasses import dataclass
+
+NEVER = 2**62  # a step number no run reaches: safe in min() beside real ones
+ROUND_OFF = 1e-9  # relative; an event this close after a step belongs to that step, not to the next one
+
+
+@dataclass(frozen=True)
+class Schedule:
+    """Events at times k * interval_s, k = 0, 1, 2, ..., each due at the first step that reaches its time.
+
+    interval_s  [s], 0 = never
+    dt          time step [s]
+
+    The due step is a pure function of k (no sum of time steps), hence the same before and after a restart.
+    Where the interval is shorter than a step, every step is due, once.
+    """
+
+    interval_s: float
+    dt: float
+
+    def __post_init__(self):
+        if not (self.interval_s >= 0.0 and math.isfinite(self.interval_s)):
+            raise ValueError(f"the interval must be 0 or a positive number of seconds, not {self.interval_s}")
+        if not (self.dt > 0.0 and math.isfinite(self.dt)):
+            raise ValueError(f"the time step must be a positive number of seconds, not {self.dt}")
+
+    def due_step(self, event: int) -> int:
+        """Step at which event number `event` is due."""
+        if self.interval_s == 0.0:
+            return NEVER
+        steps = event * self.interval_s / self.dt
+        return math.ceil(steps - ROUND_OFF * max(1.0, steps))
+
+    def events_until(self, step: int) -> int:
+        """Number of events due at steps 0 .. `step`, both included; the next event has that number."""
+        if self.interval_s == 0.0 or step < 0:
+            return 0
+        event = max(0, math.floor(step * self.dt / self.interval_s) - 1)  # at or just below the answer
+        while self.due_step(event) <= step:
+            event += 1
+        while event > 0 and self.due_step(event - 1) > step:
+            event -= 1
+        return event
+
+    def next_due(self, step: int) -> int:
+        """The first due step after `step` (NEVER if there is none); next_due(-1) is 0."""
+        return self.due_step(self.events_until(step))
+
+    def is_due(self, step: int) -> bool:
+        """Whether an event is due at `step`."""
+        return self.next_due(step - 1) == step

@@ -1,0 +1,224 @@
+"""Snapshots for ParaView: the floes' outer shapes as VTK polyhedra, one cell a body.
+
+Written here rather than by meshio, which codes the connectivity anew each time although it never changes: 200
+floes take 8.0 ms that way and 2.4 ms this way, 2.7 and 0.8 % of a run of half a minute with 100 snapshots.
+VTK and meshio read the files alike. Their time is not in them but in the PVD collection.
+"""
+
+import base64
+import sys
+import zlib
+from collections.abc import Sequence
+from xml.sax.saxutils import quoteattr
+
+import numpy as np
+
+from dilatedem.geometry.polyhedron import Polyhedron, convex_hull, prism
+from dilatedem.output.atomic import replacing, write_text
+
+# Cell data of every snapshot: name -> (type, components).
+CELL_DATA = {
+    "body": (np.int64, 1),
+    "velocity": (np.float64, 3),
+    "speed": (np.float64, 1),
+    "angular_velocity": (np.float64, 3),
+    "contact_force": (np.float64, 3),
+    "contacts": (np.int64, 1),
+}
+
+
+VTK_POLYHEDRON = 42
+COMPRESSION = 1  # zlib level: coordinates are nearly random digits, a higher one saves 1 % for twice the time
+
+# What is drawn of structures that reach further than any floe: a piece around the water level.
+STRUCTURE_BOTTOM = -3.0  # m
+STRUCTURE_TOP = 2.0  # m
+PILE_SIDES = 64
+PLATE_THICKNESS = 0.05  # m, of a plane's plate, which lies on its solid side
+
+
+class SnapshotWriter:
+    """Writes one set of bodies again and again; the connectivity is set up once.
+
+    outers  body-frame outer shapes with the origin at the centroid, one per body
+
+    Cells stand in the file by their number of vertices, whose body is in the array `body`: meshio (5.3) sorts
+    polyhedra like that when it reads, but not their data, so that it fails on, or mixes up, any other order.
+    """
+
+    def __init__(self, outers: Sequence[Polyhedron]):
+        counts = np.array([len(outer.vertices) for outer in outers], dtype=np.int64)
+        self._order = np.argsort(counts, kind="stable")
+        in_order = [outers[i] for i in self._order]
+        self._vertices = np.concatenate([np.zeros((0, 3)), *(outer.vertices for outer in in_order)])
+        self._owner = np.repeat(self._order, counts[self._order])
+        self._cells = _cells_element(in_order)
+
+    def write(self, path, position, orientation, cell_data: dict[str, np.ndarray]) -> None:
+        """Write the bodies in the pose given, atomically.
+
+        position     (n, 3) [m] of the centroids
+        orientation  (n, 4) unit quaternions (w, x, y, z), body to world
+        cell_data    the arrays of CELL_DATA, n entries each
+
+        Raises ValueError for an array that is missing, foreign, or of the wrong shape.
+        """
+        self._write(path, position, orientation, _checked(cell_data, len(self._order)))
+
+    def _write(self, path, position, orientation, cell_data: dict[str, np.ndarray]) -> None:
+        rotation = rotation_matrices(orientation)
+        points = np.einsum("nij,nj->ni", rotation[self._owner], self._vertices)
+        points += np.asarray(position)[self._owner]
+        parts = [
+            f'<?xml version="1.0"?>\n<VTKFile type="UnstructuredGrid" version="0.1" header_type="UInt32" '
+            f'byte_order="{"LittleEndian" if sys.byteorder == "little" else "BigEndian"}" '
+            f'compressor="vtkZLibDataCompressor">\n<UnstructuredGrid>\n'
+            f'<Piece NumberOfPoints="{len(points)}" NumberOfCells="{len(self._order)}">\n<Points>\n',
+            _data_array("Points", points),
+            "</Points>\n",
+            self._cells,
+            "<CellData>\n",
+            *(_data_array(name, array[self._order]) for name, array in cell_data.items()),
+            "</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n",
+        ]
+        with replacing(path) as temporary:
+            temporary.write_bytes("".join(parts).encode())
+
+
+def write_snapshot(path, outers: Sequence[Polyhedron], position, orientation, cell_data: dict) -> None:
+    """Write bodies once; see `SnapshotWriter`, which pays where the same bodies are written more often."""
+    SnapshotWriter(outers).write(path, position, orientation, cell_data)
+
+
+def write_shapes(path, outers: Sequence[Polyhedron], position, orientation, cell_data: dict) -> None:
+    """Write bodies in a pose with whatever cell data (float64 or int64, one row a body), atomically."""
+    SnapshotWriter(outers)._write(path, position, orientation, cell_data)
+
+
+def write_structures(path, outers: Sequence[Polyhedron]) -> None:
+    """Write the structures' shapes (world coordinates), atomically; cell data: `structure`, their order."""
+    count = len(outers)
+    orientation = np.tile([1.0, 0.0, 0.0, 0.0], (count, 1))
+    number = np.arange(count, dtype=np.int64)
+    write_shapes(path, outers, np.zeros((count, 3)), orientation, {"structure": number})
+
+
+def pile_column(center, radius: float) -> Polyhedron:
+    """A vertical pile, centre (2,) [m] in plan, as a column of PILE_SIDES sides around the water level."""
+    angle = np.arange(PILE_SIDES) * (2.0 * np.pi / PILE_SIDES)
+    outline = np.asarray(center, dtype=float) + radius * np.column_stack([np.cos(angle), np.sin(angle)])
+    return prism(outline, STRUCTURE_BOTTOM, STRUCTURE_TOP)
+
+
+def plane_plate(point, normal, extent: float) -> Polyhedron:
+    """A plane through `point` (3,) with outward `normal` (3,), as a thin plate `extent` [m] wide.
+
+    Steep plates are cut at the heights between which piles are drawn.
+    """
+    point, normal = np.asarray(point, dtype=float), np.asarray(normal, dtype=float)
+    normal = normal / np.linalg.norm(normal)
+    along = np.cross([0.0, 0.0, 1.0], normal)
+    if np.linalg.norm(along) < 1e-9:  # level plane: no direction along it is special
+        along = np.array([1.0, 0.0, 0.0])
+    along /= np.linalg.norm(along)
+    upward = np.cross(normal, along)  # steepest ascent, for a plane that leans either way
+    half = 0.5 * extent
+    low = high = half
+    if upward[2] > 1e-9:
+        low = min(half, max(0.0, point[2] - STRUCTURE_BOTTOM) / upward[2])
+        high = min(half, max(0.0, STRUCTURE_TOP - point[2]) / upward[2])
+    return convex_hull(
+        np.array(
+            [
+                point + a * half * along + b * upward - depth * normal
+                for a in (-1.0, 1.0)
+                for b in (-low, high)
+                for depth in (0.0, PLATE_THICKNESS)
+            ]
+        )
+    )
+
+
+def write_pvd(path, snapshots: Sequence[tuple[float, str]]) -> None:
+    """Write the collection: (time [s], file relative to the folder of `path`) per snapshot, atomically."""
+    entries = "".join(
+        f'    <DataSet timestep="{time_s:.9g}" group="" part="0" file={quoteattr(str(file))}/>\n'
+        for time_s, file in snapshots
+    )
+    write_text(
+        path,
+        '<?xml version="1.0"?>\n'
+        '<VTKFile type="Collection" version="0.1" byte_order="LittleEndian">\n'
+        f"  <Collection>\n{entries}  </Collection>\n"
+        "</VTKFile>\n",
+    )
+
+
+def wrapped(position, size, periodic) -> np.ndarray:
+    """`position` (n, 3) [m] put into the domain, `size` (2,) [m] about the origin, along periodic axes."""
+    position = np.array(position, dtype=float)
+    for axis in range(2):
+        if periodic[axis]:
+            position[:, axis] -= size[axis] * np.floor(position[:, axis] / size[axis] + 0.5)
+    return position
+
+
+def rotation_matrices(orientation) -> np.ndarray:
+    """(n, 4) unit quaternions (w, x, y, z) as (n, 3, 3) matrices, body to world."""
+    w, x, y, z = np.asarray(orientation, dtype=float).reshape(-1, 4).T
+    rows = [
+        [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+        [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+        [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+    ]
+    return np.moveaxis(np.array(rows), 2, 0)
+
+
+def _checked(cell_data: dict[str, np.ndarray], count: int) -> dict[str, np.ndarray]:
+    if set(cell_data) != set(CELL_DATA):
+        raise ValueError(f"a snapshot holds {', '.join(CELL_DATA)}, not {', '.join(cell_data)}")
+    arrays = {}
+    for name, (kind, components) in CELL_DATA.items():
+        array = np.ascontiguousarray(cell_data[name], dtype=kind)
+        if array.shape != ((count,) if components == 1 else (count, components)):
+            raise ValueError(f"snapshot array {name}: shape {array.shape} for {count} bodies")
+        arrays[name] = array
+    return arrays
+
+
+def _cells_element(outers: Sequence[Polyhedron]) -> str:
+    """The Cells element: per cell its vertices, and its faces as [faces, (vertices, vertex, ...) of each]."""
+    faces: list[int] = []
+    face_offsets: list[int] = []
+    counts: list[int] = []
+    start = 0
+    for outer in outers:
+        faces.append(len(outer.faces))
+        for face in outer.faces:
+            faces.append(len(face))
+            faces.extend((np.asarray(face) + start).tolist())
+        face_offsets.append(len(faces))
+        counts.append(len(outer.vertices))
+        start += counts[-1]
+    arrays = {
+        "connectivity": np.arange(start),
+        "offsets": np.cumsum(counts),
+        "types": np.full(len(outers), VTK_POLYHEDRON),
+        "faces": np.array(faces),
+        "faceoffsets": np.array(face_offsets),
+    }
+    content = "".join(_data_array(name, array.astype(np.int64)) for name, array in arrays.items())
+    return f"<Cells>\n{content}</Cells>\n"
+
+
+def _data_array(name: str, array: np.ndarray) -> str:
+    """A DataArray: header (number of blocks, block size, last block's, compressed sizes), then the blocks."""
+    kind = {"f": "Float64", "i": "Int64"}[array.dtype.kind]
+    components = f' NumberOfComponents="{array.shape[1]}"' if array.ndim == 2 else ""
+    raw = array.tobytes()
+    blocks = [zlib.compress(raw, COMPRESSION)] if raw else []
+    header = np.array([len(blocks), len(raw), len(raw), *map(len, blocks)], dtype=np.uint32)
+    content = (base64.b64encode(part).decode() for part in (header.tobytes(), *blocks))
+    return (
+        f'<DataArray type="{kind}" Name="{name}"{components} format="binary">{"".join(content)}</DataArray>\n'
+    )

@@ -1,0 +1,31 @@
+"""What the files of a run say: statistics, figures and a report, from run folders and sweep folders alone.
+
+Nothing here knows the simulation: whatever is shown was read from the files that a run leaves behind, so
+that a run of another machine, or one that was killed half way, is treated like any other.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+__all__ = ["info", "post"]
+
+
+def post(run_dirs: Sequence[Path]) -> list[Path]:
+    """Write figures/, report.html and the load statistics (key `post` of summary.json) of each folder.
+
+    run_dirs: run folders (with a case.toml), sweep folders (with a sweep.csv), or both. Several run folders
+        given together are also compared, in a folder `comparison` beside them.
+    Returns the paths written, in the order written. Raises CaseError for a folder that is neither.
+    """
+    from dilatedem.post.folders import post_folders  # matplotlib and the report, only when they are wanted
+
+    return post_folders([Path(folder) for folder in run_dirs])
+
+
+def info(run_dir: Path) -> str:
+    """What the run or sweep in this folder is, how far it got, and its headline loads, as plain text."""
+    from dilatedem.post.overview import describe
+
+    return describe(Path(run_dir))

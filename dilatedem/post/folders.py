@@ -1,0 +1,142 @@
+"""What is made of each folder: figures, statistics and report of a run, of a sweep, of runs side by side."""
+
+from __future__ import annotations
+
+import json
+import os
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from dilatedem.errors import CaseError
+from dilatedem.post import canvas, report
+from dilatedem.post.canvas import Drawing
+from dilatedem.post.figures_energy import energy_figure, residual_share
+from dilatedem.post.figures_field import field_figure, plan_figure, speed_figure
+from dilatedem.post.figures_loads import force_figure, load_around_figure, load_map_figure, peak_figure
+from dilatedem.post.figures_sweep import sweep_figure
+from dilatedem.post.loads import angular_statistics, load_statistics
+from dilatedem.post.read import RunFolder, is_run, is_sweep, open_run, read_summary, row_count
+from dilatedem.post.snapshots import Snapshot, snapshots_at
+from dilatedem.post.sweeps import Sweep, compare_runs, read_sweep, write_table
+
+COMPARISON_TABLE = "comparison.csv"
+MOMENTS = (0.0, 0.5, 1.0)  # of the run's time that the plan views show, as in Liu 2015, Fig. 10
+
+
+def post_folders(folders: list[Path]) -> list[Path]:
+    """See dilatedem.post.post. Every folder is checked before anything is written."""
+    # `dilatedem post runs/*` meets the comparison that it wrote the last time.
+    folders = [folder for folder in dict.fromkeys(folders) if not (folder / COMPARISON_TABLE).is_file()]
+    for folder in folders:
+        if not (is_run(folder) or is_sweep(folder)):
+            raise CaseError(f"{folder}: neither a run (case.toml) nor a sweep (sweep.csv) is in this folder")
+    written: list[Path] = []
+    runs: list[RunFolder] = []
+    for folder in folders:
+        if is_sweep(folder):
+            written += post_sweep(read_sweep(folder))
+        else:
+            run = open_run(folder)
+            written += post_run(run)
+            runs.append(run)
+    if len(runs) > 1:
+        beside = common_folder([run.path for run in runs]) / "comparison"
+        beside.mkdir(exist_ok=True)
+        sweep = compare_runs(runs, beside)
+        write_table(sweep, beside / COMPARISON_TABLE)
+        written += [beside / COMPARISON_TABLE, *post_sweep(sweep)]
+    return written
+
+
+def common_folder(runs: list[Path]) -> Path:
+    """The deepest folder that holds all these run folders, and is none of them."""
+    parents = [str(run.resolve().parent) for run in runs]
+    return Path(os.path.commonpath(parents))
+
+
+def post_run(run: RunFolder) -> list[Path]:
+    """Figures, statistics and report of one run."""
+    statistics = run_statistics(run)
+    written, figures = save_all(run_drawings(run), run.path / "figures")
+    if merge_summary(run.path / "summary.json", statistics):
+        written.append(run.path / "summary.json")
+    written.append(report.write_run_report(run, statistics, figures))
+    return written
+
+
+def post_sweep(sweep: Sweep) -> list[Path]:
+    """Figures and report of runs that differ in some keys."""
+    drawings = [sweep_figure(sweep, structure, key) for structure in sweep.structures for key in sweep.keys]
+    written, figures = save_all([drawing for drawing in drawings if drawing], sweep.folder / "figures")
+    written.append(report.write_sweep_report(sweep, figures))
+    return written
+
+
+def save_all(drawings: list[Drawing], folder: Path) -> tuple[list[Path], list[tuple[Drawing, str]]]:
+    """Write every figure; return the files, and each figure with its SVG for the report."""
+    written: list[Path] = []
+    figures: list[tuple[Drawing, str]] = []
+    for drawing in drawings:
+        files, svg = canvas.save(drawing, folder)
+        written += files
+        figures.append((drawing, svg))
+    return written, figures
+
+
+def run_drawings(run: RunFolder) -> list[Drawing]:
+    """All figures that the files of this run allow, in the order of the report."""
+    snapshots = snapshots_at(run, MOMENTS)
+    upstream = run.upstream_angle
+    drawings: list[Drawing | None] = []
+    outlines = initial_outlines(run, snapshots)
+    if outlines:
+        drawings.append(field_figure(run, outlines))
+    if snapshots:
+        drawings += [plan_figure(run, snapshots), speed_figure(run, snapshots)]
+    for name, history in run.forces.items():
+        drawings += [force_figure(name, history), peak_figure(name, history)]
+        load_map = run.load_maps.get(name)
+        if load_map is not None and load_map.kind == "pile":
+            drawings.append(load_around_figure(load_map, upstream))
+        if load_map is not None:
+            drawings.append(load_map_figure(load_map, upstream))
+    if row_count(run.energy):
+        drawings.append(energy_figure(run.energy))
+    return [drawing for drawing in drawings if drawing is not None]
+
+
+def initial_outlines(run: RunFolder, snapshots: list[Snapshot]) -> list[np.ndarray]:
+    """Outlines of the floes at the start, from run.h5 or from a snapshot of t = 0."""
+    if run.floes is not None:
+        return run.floes.outlines
+    return snapshots[0].outlines if snapshots and snapshots[0].time == 0.0 else []
+
+
+def run_statistics(run: RunFolder) -> dict[str, Any]:
+    """What goes under `post` in summary.json."""
+    loads: dict[str, Any] = {}
+    for name, history in run.forces.items():
+        loads[name] = load_statistics(history)
+        load_map = run.load_maps.get(name)
+        if load_map is not None and load_map.kind == "pile":
+            loads[name]["around"] = angular_statistics(load_map, run.upstream_angle)
+    share = residual_share(run.energy) if row_count(run.energy) else None
+    return {"simulated_s": run.simulated, "loads": loads, "largest_residual_over_work": share}
+
+
+def merge_summary(path: Path, statistics: dict[str, Any]) -> bool:
+    """Put the statistics under `post` of summary.json and leave its other keys as they are.
+
+    Returns False, and writes nothing, when there is a summary.json that cannot be read.
+    """
+    summary = read_summary(path)
+    if not summary and path.exists():
+        return False
+    summary["post"] = statistics
+    text = json.dumps(summary, indent=2, ensure_ascii=False) + "\n"
+    partial = path.with_name(path.name + ".partial")
+    partial.write_text(text, encoding="utf-8")
+    os.replace(partial, path)
+    return True

@@ -1,0 +1,111 @@
+"""Words and units for the keys of a case, and how its values are written for a reader."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+# key of the case file (list positions left out) -> (what it is, unit)
+KEYS: dict[str, tuple[str, str]] = {
+    "domain.size": ("domain size", "m"),
+    "field.floe_size": ("mean floe size", "m"),
+    "field.floe_count": ("number of floes", ""),
+    "field.concentration": ("ice concentration", ""),
+    "field.seed": ("seed of the ice field", ""),
+    "ice.density": ("density of the ice", "kg/m³"),
+    "ice.thickness": ("ice thickness", "m"),
+    "ice.dilated_radius": ("dilated radius", "m"),
+    "ice.elastic_modulus": ("elastic modulus of the ice", "Pa"),
+    "ice.poisson_ratio": ("Poisson ratio of the ice", ""),
+    "ice.initial_velocity": ("initial speed of the ice", "m/s"),
+    "water.density": ("density of the water", "kg/m³"),
+    "water.velocity": ("current speed", "m/s"),
+    "water.velocity.0": ("current along x", "m/s"),
+    "water.velocity.1": ("current along y", "m/s"),
+    "water.drag_force_coefficient": ("drag force coefficient", ""),
+    "water.drag_moment_coefficient": ("drag moment coefficient", ""),
+    "gravity.acceleration": ("gravity", "m/s²"),
+    "structure.center": ("centre", "m"),
+    "structure.radius": ("pile radius", "m"),
+    "structure.point": ("point of the plane", "m"),
+    "structure.elastic_modulus": ("elastic modulus of the structure", "Pa"),
+    "structure.poisson_ratio": ("Poisson ratio of the structure", ""),
+    "contact.model": ("contact model", ""),
+    "contact.damping": ("damping coefficient", ""),
+    "contact.friction": ("friction coefficient", ""),
+    "contact.stiffness_ratio": ("stiffness ratio", ""),
+    "time.duration": ("duration", "s"),
+    "time.step": ("time step", "s"),
+    "output.snapshot_interval": ("snapshot interval", "s"),
+    "output.force_interval": ("force interval", "s"),
+    "output.track_interval": ("track interval", "s"),
+    "output.checkpoint_interval": ("checkpoint interval", "s"),
+}
+
+
+def describe_key(key: str) -> tuple[str, str]:
+    """(what the key is, unit); an unknown key is described by itself."""
+    if key in KEYS:
+        return KEYS[key]
+    parts = key.split(".")
+    if parts[0] in ("structure", "body") and len(parts) > 2 and parts[1].isdigit():
+        what, unit = describe_key(".".join([parts[0], *parts[2:]]))
+        return (what if what != f"{parts[0]}.{parts[2]}" else key), unit
+    if parts[-1].isdigit() and ".".join(parts[:-1]) in KEYS:
+        what, unit = KEYS[".".join(parts[:-1])]
+        return f"{what} [{parts[-1]}]", unit
+    return key, ""
+
+
+def axis_label(key: str) -> str:
+    what, unit = describe_key(key)
+    text = what[0].upper() + what[1:]
+    return f"{text} ({unit})" if unit else text
+
+
+def number(value: float, digits: int = 4) -> str:
+    """A number for a reader: a few significant digits, no exponent while it stays readable."""
+    if not math.isfinite(value):
+        return "–"
+    if value == 0.0:
+        return "0"
+    if value < 0.0:
+        return "\N{MINUS SIGN}" + number(-value, digits)
+    if 1e-3 <= value < 1e6:
+        decimals = max(0, digits - 1 - math.floor(math.log10(value)))
+        return without_zeros(f"{value:.{decimals}f}")
+    mantissa, exponent = f"{value:.{digits - 1}e}".split("e")
+    return f"{without_zeros(mantissa)} × 10{str(int(exponent)).translate(SUPERSCRIPT)}"
+
+
+def without_zeros(text: str) -> str:
+    return text.rstrip("0").rstrip(".") if "." in text else text
+
+
+SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+
+
+def show(value: Any) -> str:
+    """A value of a case as a reader wants it."""
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if isinstance(value, int | float):
+        return number(float(value), 6)
+    if isinstance(value, list | tuple):
+        return ", ".join(show(entry) for entry in value) if value else "none"
+    return "–" if value is None else str(value)
+
+
+def flatten(case: dict[str, Any], prefix: str = "") -> dict[str, Any]:
+    """A case as one level of dotted keys; lists of tables are numbered, lists of numbers stay whole."""
+    flat: dict[str, Any] = {}
+    for key, value in case.items():
+        name = f"{prefix}{key}"
+        if isinstance(value, dict):
+            flat |= flatten(value, f"{name}.")
+        elif isinstance(value, list) and value and all(isinstance(entry, dict) for entry in value):
+            for index, entry in enumerate(value):
+                flat |= flatten(entry, f"{name}.{index}.")
+        else:
+            flat[name] = value
+    return flat

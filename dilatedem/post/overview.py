@@ -1,0 +1,97 @@
+"""What `dilatedem info` says: the run or sweep in a folder, how far it got, its headline loads."""
+
+from __future__ import annotations
+
+from collections import Counter
+from pathlib import Path
+
+from dilatedem.post.labels import axis_label, number
+from dilatedem.post.loads import load_statistics
+from dilatedem.post.read import RunFolder, is_sweep, open_run
+from dilatedem.post.sweeps import read_sweep, value_words
+
+
+def describe(folder: Path) -> str:
+    """Lines of plain text. Raises CaseError when the folder holds neither a run nor a sweep."""
+    return describe_sweep(folder) if is_sweep(folder) else describe_run(open_run(folder))
+
+
+def describe_run(run: RunFolder) -> str:
+    summary = run.summary
+    lines = [run.title, f"  {'folder':<12}{run.path}", f"  {'status':<12}{status_words(run)}"]
+    if summary.get("message"):
+        lines.append(f"  {'':<12}{summary['message']}")
+    lines.append(f"  {'model':<12}{model_words(run)}")
+    if summary.get("steps"):
+        lines.append(f"  {'steps':<12}{step_words(summary)}")
+    for name, history in run.forces.items():
+        lines.append(f"  {'load':<12}{name}: {load_words(load_statistics(history))}")
+    if not run.forces:
+        lines.append(f"  {'load':<12}none recorded")
+    share = (summary.get("energy") or {}).get("residual_over_work")
+    if share is not None:
+        lines.append(f"  {'energy':<12}residual {number(100.0 * share, 3)} % of the work of the current")
+    return "\n".join(lines)
+
+
+def status_words(run: RunFolder) -> str:
+    """How far the run got."""
+    status = str(run.summary.get("status", "unknown (no summary.json)"))
+    duration = run.case.get("time", {}).get("duration")
+    reached = f"{number(run.simulated, 5)} s"
+    return f"{status}, {reached} of {number(float(duration), 5)} s" if duration else f"{status}, {reached}"
+
+
+def model_words(run: RunFolder) -> str:
+    count = run.summary.get("floes") or (len(run.floes.outlines) if run.floes else None)
+    size = run.domain_size
+    floes = f"{count} floes" if count is not None else "floes"
+    kinds = [f"{structure.get('kind')} '{structure.get('name')}'" for structure in run.structures]
+    against = ", ".join(kinds) if kinds else "no structure"
+    current = number(float((run.current[0] ** 2 + run.current[1] ** 2) ** 0.5), 3)
+    model = run.case.get("contact", {}).get("model", "")
+    return f"{floes} in {size[0]:g} m x {size[1]:g} m, {against}, current {current} m/s, contact {model}"
+
+
+def step_words(summary: dict) -> str:
+    words = f"{summary['steps']}"
+    if summary.get("dt_s"):
+        words += f" of {number(summary['dt_s'], 3)} s"
+        if summary.get("dt_critical_s"):
+            words += f" ({number(summary['dt_s'] / summary['dt_critical_s'], 2)} of the critical one)"
+    if summary.get("wall_s"):
+        words += f", {number(summary['wall_s'], 3)} s of wall time"
+    return words
+
+
+def load_words(statistics: dict) -> str:
+    if not statistics["windows"]:
+        return "no rows yet"
+    fh, fx, fy = statistics["fh"], statistics["fx"], statistics["fy"]
+    return (
+        f"peak {number(fh['peak_N'] / 1e3, 3)} kN at {number(fh['peak_time_s'], 5)} s, "
+        f"mean along x {number(fx['mean_N'] / 1e3, 3)} kN, "
+        f"along y {number(fy['min_N'] / 1e3, 3)} to {number(fy['max_N'] / 1e3, 3)} kN, "
+        f"in contact {number(100.0 * statistics['contact_time_fraction'], 3)} % of the time"
+    )
+
+
+def describe_sweep(folder: Path) -> str:
+    sweep = read_sweep(folder)
+    ended = ", ".join(
+        f"{count} {status}" for status, count in Counter(run.status for run in sweep.runs).items()
+    )
+    lines = [
+        f"Sweep: {sweep.title}",
+        f"  {'folder':<12}{folder}",
+        f"  {'runs':<12}{len(sweep.runs)} ({ended})",
+    ]
+    for key in sweep.keys:
+        values = list(dict.fromkeys(value_words(key, run.values[key]) for run in sweep.runs))
+        lines.append(f"  {'varied':<12}{axis_label(key)} [{key}]: {'; '.join(values)}")
+    for name in sweep.structures:
+        peaks = [run.loads[name]["fx_max"] for run in sweep.runs if "fx_max" in run.loads.get(name, {})]
+        if peaks:
+            low, high = number(min(peaks) / 1e3, 3), number(max(peaks) / 1e3, 3)
+            lines.append(f"  {'load':<12}{name}: highest force along x from {low} to {high} kN")
+    return "\n".join(lines)

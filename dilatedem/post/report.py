@@ -1,0 +1,263 @@
+"""report.html: one file that shows a run, or a sweep, to somebody who was not there."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any
+
+import jinja2
+import numpy as np
+
+from dilatedem.post.canvas import Drawing
+from dilatedem.post.figures_sweep import group_runs
+from dilatedem.post.labels import axis_label, describe_key, flatten, number, show
+from dilatedem.post.overview import status_words
+from dilatedem.post.read import RunFolder
+from dilatedem.post.sweeps import Sweep, relative, value_words
+
+BODIES_LISTED = 5  # more explicit bodies than this are counted in the case table, not listed
+PAIRS = {"ice_ice": "floe on floe", "ice_structure": "floe on structure"}
+
+LIMITS = (
+    "Floes are rigid: they do not crush, split, raft or ridge, though some of these peaks would break real "
+    "ice.",
+    "The structure does not give way; its own compliance would soften the peaks.",
+    "The water is a uniform current without waves, and the ice does not change its flow. Its drag acts on "
+    "the whole wetted surface of a floe: about ten times the drag of a formula for the frontal area.",
+    "Peaks last tens of milliseconds, and their height and number vary from one random field to the next: "
+    "judge by several seeds, not by one run.",
+    "Durations of peaks are counted in whole windows of forces.csv, too long by up to two windows each.",
+)
+LIMITS_OF_LIU2015 = (
+    "Contact laws are those of Liu, Long & Ji (2015), mode by mode. They jump where a contact changes its "
+    "mode, by factors up to some hundreds at 0.1 mm overlap; the laws for parallel edges stand for a contact "
+    "one metre long and are far softer than elasticity; restitution depends on speed. The energy that the "
+    "jumps create is booked as gain_law in the ledger."
+)
+UNFINISHED = "This run did not reach its end: everything here covers only the part that was simulated."
+
+Rows = list[list[str]]
+
+
+def write_run_report(run: RunFolder, statistics: dict[str, Any], figures: list[tuple[Drawing, str]]) -> Path:
+    """Write report.html of a run. statistics: as in summary.json under `post`."""
+    return render(
+        "run.html",
+        run.path / "report.html",
+        title=run.title,
+        status=status_words(run),
+        message=run.summary.get("message") or "",
+        loads=[
+            {"name": name, "rows": load_rows(entry), "quantiles": quantile_table(entry)}
+            for name, entry in statistics["loads"].items()
+        ],
+        figures=inline(figures),
+        energy=energy_rows(run, statistics),
+        contacts=contact_table(run),
+        facts=fact_rows(run),
+        case=case_rows(run.case),
+        versions=version_rows(run.summary),
+        limits=limits(run),
+    )
+
+
+def write_sweep_report(sweep: Sweep, figures: list[tuple[Drawing, str]]) -> Path:
+    """Write report.html of a sweep or a comparison."""
+    sweep.folder.mkdir(exist_ok=True)
+    return render(
+        "sweep.html",
+        sweep.folder / "report.html",
+        title=sweep.title,
+        keys=[(key, axis_label(key)) for key in sweep.keys],
+        figures=inline(figures),
+        means={name: mean_table(sweep, name) for name in sweep.structures},
+        runs=run_table(sweep),
+        count=len(sweep.runs),
+        completed=sum(run.completed for run in sweep.runs),
+    )
+
+
+def render(template: str, path: Path, **content: Any) -> Path:
+    environment = jinja2.Environment(
+        loader=jinja2.PackageLoader("dilatedem.post"), autoescape=True, trim_blocks=True, lstrip_blocks=True,
+        undefined=jinja2.StrictUndefined,
+    )  # fmt: skip
+    path.write_text(environment.get_template(template).render(**content), encoding="utf-8")
+    return path
+
+
+def inline(figures: list[tuple[Drawing, str]]) -> list[dict[str, Any]]:
+    return [
+        {"title": drawing.title, "caption": drawing.caption, "name": drawing.name, "svg": svg}
+        for drawing, svg in figures
+    ]
+
+
+def load_rows(statistics: dict[str, Any]) -> Rows:
+    """What, value and unit of the load on one structure."""
+    if not statistics["windows"]:
+        return []
+    fh, fx, fy, peaks = statistics["fh"], statistics["fx"], statistics["fy"], statistics["peaks"]
+    rows = [
+        ["highest horizontal force", kilo(fh["peak_N"]), f"kN, at {number(fh['peak_time_s'], 5)} s"],
+        ["force along x, lowest to highest", f"{kilo(fx['min_N'])} to {kilo(fx['max_N'])}", "kN"],
+        ["force along y, lowest to highest", f"{kilo(fy['min_N'])} to {kilo(fy['max_N'])}", "kN"],
+    ]
+    window = f"{number(1e3 * statistics['window_s'], 3)} ms"
+    for axis, entry in (("x", fx), ("y", fy)):
+        rows.append([f"mean force along {axis}", kilo(entry["mean_N"]), "kN"])
+        spread = f"standard deviation of the {window} means along {axis}"
+        rows.append([spread, kilo(entry["std_of_window_means_N"]), "kN"])
+        rows.append([f"impulse along {axis}", kilo(entry["impulse_Ns"]), "kN s"])
+    rows.append(["share of time in contact", number(100.0 * statistics["contact_time_fraction"], 3), "%"])
+    if peaks["count"]:
+        share = number(100.0 * peaks["threshold_share_of_highest"])
+        rows += [
+            [f"separate peaks above {share} % of the highest", str(peaks["count"]), ""],
+            ["mean duration of these peaks", number(1e3 * peaks["mean_duration_s"], 3), "ms"],
+            ["longest of them", number(1e3 * peaks["longest_duration_s"], 3), "ms"],
+        ]
+    for half in (45, 90):
+        part = (statistics.get("around") or {}).get(f"share_within_{half}_deg_of_upstream")
+        if part is not None:
+            what = f"share of the load within {half}° of the upstream direction"
+            rows.append([what, number(100.0 * part, 3), "%"])
+    return rows
+
+
+def quantile_table(statistics: dict[str, Any]) -> dict[str, Any]:
+    """Forces that the maxima of the windows stay below, in so many per cent of the windows."""
+    if not statistics["windows"]:
+        return {"head": [], "rows": []}
+    rows = []
+    for name, key in (("horizontal", "fh"), ("along x", "fx")):
+        quantiles = statistics[key]["quantiles_of_window_maxima_N"]
+        rows.append([name, *[kilo(value) for value in quantiles.values()]])
+    window = number(1e3 * statistics["window_s"], 3)
+    return {"head": [f"{share} %" for share in quantiles], "rows": rows, "window": window}
+
+
+def kilo(value: float) -> str:
+    return number(value / 1e3, 3)
+
+
+def energy_rows(run: RunFolder, statistics: dict[str, Any]) -> Rows:
+    """Every term of the ledger at its end."""
+    rows: Rows = []
+    for name, column in run.energy.items():
+        if name == "time_s" or not len(column):
+            continue
+        end, change = float(column[-1]), float(column[-1] - column[0])
+        rows.append([name.replace("_", " "), number(end / 1e3, 5), number(change / 1e3, 5)])
+    share = statistics.get("largest_residual_over_work")
+    if share is not None:
+        rows.append(["largest residual / largest work of the current", f"{number(100.0 * share, 3)} %", ""])
+    return rows
+
+
+def contact_table(run: RunFolder) -> list[dict[str, Any]]:
+    """Per kind of pair a table: mode, contact-steps, share, impulse, highest force, deepest overlap.
+
+    Modes that never occurred are left out.
+    """
+    tables = []
+    for pair, contacts in run.contacts.items():
+        columns = contacts.columns
+        steps = columns.get("steps", np.zeros(len(contacts.mode)))
+        total = float(steps.sum())
+        rows = [
+            [
+                mode,
+                number(float(steps[i]), 6),
+                number(100.0 * float(steps[i]) / total, 3) if total else "–",
+                kilo(float(columns["impulse_Ns"][i])),
+                kilo(float(columns["max_force_N"][i])),
+                number(1e3 * float(columns["max_overlap_m"][i]), 3),
+            ]
+            for i, mode in enumerate(contacts.mode)
+            if steps[i] > 0
+        ]
+        tables.append({"pair": PAIRS.get(pair, pair.replace("_", " ")), "rows": rows})
+    return tables
+
+
+def fact_rows(run: RunFolder) -> Rows:
+    """How the run was made."""
+    summary = run.summary
+    facts = [
+        ("floes", "floes", ""),
+        ("seed", "seed", ""),
+        ("steps", "steps", ""),
+        ("time step", "dt_s", "s"),
+        ("critical time step", "dt_critical_s", "s"),
+        ("simulated", "simulated_s", "s"),
+        ("wall time", "wall_s", "s"),
+        ("of which compiling", "compile_s", "s"),
+        ("threads", "threads", ""),
+    ]
+    rows = [[label, show(summary[key]), unit] for label, key, unit in facts if summary.get(key) is not None]
+    if run.floes is not None and len(run.floes.mass):
+        rows.append(["mass of all floes", number(float(run.floes.mass.sum()) / 1e3), "t"])
+    return rows
+
+
+def case_rows(case: dict[str, Any]) -> Rows:
+    """Key, value and unit of the whole case."""
+    bodies = case.get("body", [])
+    shown = dict(case)
+    if len(bodies) > BODIES_LISTED:
+        shown["body"] = f"{len(bodies)} explicit bodies, see case.toml"
+    return [[key, show(value), describe_key(key)[1]] for key, value in flatten(shown).items()]
+
+
+def version_rows(summary: dict[str, Any]) -> Rows:
+    rows = [["dilatedem", str(summary["version"])]] if summary.get("version") else []
+    return rows + [[name, str(version)] for name, version in (summary.get("versions") or {}).items()]
+
+
+def limits(run: RunFolder) -> list[str]:
+    """What the reader must not expect of these numbers."""
+    sentences = list(LIMITS)
+    if run.case.get("contact", {}).get("model", "liu2015") == "liu2015":
+        sentences.insert(0, LIMITS_OF_LIU2015)
+    if run.summary.get("status") != "completed":
+        sentences.insert(0, UNFINISHED)
+    return sentences
+
+
+def mean_table(sweep: Sweep, structure: str) -> dict[str, Any]:
+    """One row for each setting of the varied keys: number of runs, mean and spread of their loads."""
+    rows = []
+    for group in group_runs(sweep, sweep.keys[0]) if sweep.keys else []:
+        highest, mean = group.loads(structure, "fx_max") / 1e3, group.loads(structure, "fx_mean") / 1e3
+        if not len(highest):
+            continue
+        spread = number(float(highest.std(ddof=1)), 3) if len(highest) > 1 else "–"
+        rows.append([
+            *[value_words(key, group.values[key]) for key in sweep.keys],
+            str(len(highest)),
+            number(float(highest.mean()), 4),
+            spread,
+            number(float(highest.min()), 4),
+            number(float(highest.max()), 4),
+            number(float(mean.mean()), 3),
+        ])  # fmt: skip
+    return {"head": [axis_label(key) for key in sweep.keys], "rows": rows}
+
+
+def run_table(sweep: Sweep) -> dict[str, Any]:
+    """One row for each run, with a link to its own report where there is one."""
+    quantities = (("fx_max", "highest x"), ("fx_mean", "mean x"), ("fh_max", "highest horizontal"))
+    columns = [(name, quantity, label) for name in sweep.structures for quantity, label in quantities]
+    head = [axis_label(key) for key in sweep.keys] + ["Seed", "Status"]
+    head += [f"{name}: {label} (kN)" for name, _, label in columns] + ["Residual / work (%)"]
+    rows = []
+    for run in sweep.runs:
+        loads = [run.loads.get(name, {}).get(quantity, math.nan) for name, quantity, _ in columns]
+        cells = [value_words(key, run.values[key]) for key in sweep.keys] + [show(run.seed), run.status]
+        cells += [number(load / 1e3) for load in loads] + [number(100.0 * run.residual_over_work, 2)]
+        page = run.folder / "report.html"
+        link = relative(page, sweep.folder) if page.is_file() else ""
+        rows.append({"name": run.folder.name, "link": link, "cells": cells, "message": run.message})
+    return {"head": head, "rows": rows}

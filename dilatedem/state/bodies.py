@@ -1,0 +1,46 @@
+"""Bodies: what they are made of (constant) and how they move (varying). Floes first, structures last."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+
+class Solids(NamedTuple):
+    """Mass and elasticity of n bodies; fixed bodies have zero inverse mass and inertia."""
+
+    inverse_mass: np.ndarray  # (n,) 1/kg
+    mass: np.ndarray  # (n,) kg
+    inertia: np.ndarray  # (n, 3, 3) body frame, about the centroid, kg m2
+    inverse_inertia: np.ndarray  # (n, 3, 3) body frame, 1/(kg m2)
+    compliance: np.ndarray  # (n,) (1 - nu^2)/E, 1/Pa: a body's term of Liu 2015, Eq. (7)
+
+
+class Bodies(NamedTuple):
+    """Motion of n bodies at the same instant, and the loads that act on them."""
+
+    position: np.ndarray  # (n, 3) centroid, m
+    orientation: np.ndarray  # (n, 4) unit quaternion, body to world
+    velocity: np.ndarray  # (n, 3) m/s
+    angular_velocity: np.ndarray  # (n, 3) world axes, rad/s
+    angular_momentum: np.ndarray  # (n, 3) world axes, about the centroid, kg m2/s
+    middle_velocity: np.ndarray  # (n, 3) velocity half a step ago: displacement of the last step / dt
+    middle_angular_velocity: np.ndarray  # (n, 3)
+    middle_angular_momentum: np.ndarray  # (n, 3)
+    force: np.ndarray  # (n, 3) N, all loads
+    torque: np.ndarray  # (n, 3) N m about the centroid
+    contact_force: np.ndarray  # (n, 3) N, contacts only
+    contact_torque: np.ndarray  # (n, 3) N m
+    contact_count: np.ndarray  # (n,) contacts at this instant
+    path: np.ndarray  # (n,) m: bound on the distance any point of the body has moved, in the frame of `Pairs.frame`
+    drag_power: np.ndarray  # (n,) W
+    work_drag: np.ndarray  # (n,) J done by the drag since the start
+
+
+def bodies_at_rest(count: int) -> Bodies:
+    """n bodies at the origin, unturned, at rest, without loads."""
+    orientation = np.zeros((count, 4))
+    orientation[:, 0] = 1.0
+    shapes = {"orientation": orientation, "contact_count": np.zeros(count, np.int64)}
+    for name in ("path", "drag_power", "work_drag"):
+        shapes[name] = np.zeros(count)
+    return Bodies(**{name: shapes.get(name, np.zeros((count, 3))) for name in Bodies._fields})

@@ -1,0 +1,26 @@
+"""Where a run is, and why it had to stop."""
+
+from enum import IntEnum
+from typing import NamedTuple
+
+import numpy as np
+
+
+class Status(IntEnum):
+    """Why `advance` came back."""
+
+    DONE = 0
+    PAIRS_FULL = 1  # the list of pairs has no room: grow the arrays and go on
+    TOO_FAST = 2  # a body moved too far in one step, or its motion is no number
+    TOO_DEEP = 3  # an overlap beyond what the method can mean
+
+
+class Clock(NamedTuple):
+    step: np.ndarray  # (1,) steps done
+    status: np.ndarray  # (1,) Status
+    culprit: np.ndarray  # (2,) bodies at fault, -1 = none
+    measure: np.ndarray  # (1,) how far off: m
+
+
+def clock_at_start() -> Clock:
+    return Clock(np.zeros(1, np.int64), np.zeros(1, np.int64), np.full(2, -1, np.int64), np.zeros(1))

@@ -1,0 +1,67 @@
+"""Pairs of bodies that may touch, with the memory of each pair's contact."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+#: corners of the Minkowski difference that span a closest feature: a tetrahedron at most
+SIMPLEX = 4
+
+
+class Pairs(NamedTuple):
+    """Candidates for contact, sorted by body a, then body b (a < b); rows beyond `count[0]` are unused.
+
+    A pair sleeps until its two bodies' paths have used up its gap (`wake`): no contact can begin before.
+    """
+
+    count: np.ndarray  # (1,) pairs in use
+    frame: np.ndarray  # (2,) m/s, horizontal velocity of the frame in which paths are measured
+    limit: np.ndarray  # (1,) m, path at which the list must be made anew
+    a: np.ndarray  # (m,) body
+    b: np.ndarray  # (m,) body; the normal points from a to b
+    wake: np.ndarray  # (m,) m, sum of the two paths at which the gap could close
+    corners: np.ndarray  # (m,) corners of the closest simplex, 0 = not known yet
+    corner_a: np.ndarray  # (m, 4) vertices of a's core
+    corner_b: np.ndarray  # (m, 4) vertices of b's core
+    normal: np.ndarray  # (m, 3) unit normal of the last evaluation
+    # memory of an open contact; overlap > 0 says that there is one
+    overlap: np.ndarray  # (m,) m, at the centroid of the patch
+    mode: np.ndarray  # (m,) contact mode
+    stiffness: np.ndarray  # (m,) K of F = K overlap^exponent, N/m^exponent
+    exponent: np.ndarray  # (m,) kappa
+    shear_stiffness: np.ndarray  # (m,) tangential spring, N/m
+    slip: np.ndarray  # (m, 3) m, elongation of the tangential spring
+    damping_power: np.ndarray  # (m,) W
+    elastic_power: np.ndarray  # (m,) W that the elastic force takes up
+    # result of the last evaluation
+    force: np.ndarray  # (m, 3) N, on b
+    point: np.ndarray  # (m, 3) m, from the centroid of a
+    arm: np.ndarray  # (m, 3) m, from the centroid of b to the same point
+    normal_force: np.ndarray  # (m,) N
+    size: np.ndarray  # (m,) length or area of the patch, m or m2
+    loss_damping: np.ndarray  # (m,) J lost in the last step
+    loss_friction: np.ndarray  # (m,) J lost in the last step
+    gain_law: np.ndarray  # (m,) J made in the last step by the law's own change of stiffness
+
+
+_WIDTH = {"corner_a": SIMPLEX, "corner_b": SIMPLEX, "normal": 3, "slip": 3, "force": 3, "point": 3, "arm": 3}
+_WHOLE = {"count", "a", "b", "corners", "corner_a", "corner_b", "mode"}
+_ALONE = {"count": (1,), "frame": (2,), "limit": (1,)}
+
+
+def empty_pairs(capacity: int) -> Pairs:
+    """Room for `capacity` pairs; limit 0 makes the first step build the list."""
+    arrays = {}
+    for name in Pairs._fields:
+        shape = _ALONE.get(name) or ((capacity, _WIDTH[name]) if name in _WIDTH else (capacity,))
+        arrays[name] = np.zeros(shape, np.int64 if name in _WHOLE else np.float64)
+    return Pairs(**arrays)
+
+
+def grown(pairs: Pairs, capacity: int) -> Pairs:
+    """The same pairs with room for more."""
+    larger = empty_pairs(capacity)
+    for name in Pairs._fields:
+        old = getattr(pairs, name)
+        getattr(larger, name)[: len(old)] = old
+    return larger

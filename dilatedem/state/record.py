@@ -1,0 +1,50 @@
+"""Running sums of a run: the energy ledger, loads on structures, contact statistics."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from dilatedem.state.modes import MODE_COUNT
+
+ANGLE_BINS = 72  # of a load map: 5 degrees each
+HEIGHT_BINS = 20
+
+
+class Ledger(NamedTuple):
+    """Energy that came in or went out since the start, J; each an array (1,)."""
+
+    loss_damping: np.ndarray
+    loss_friction: np.ndarray
+    gain_law: np.ndarray
+
+
+class Loads(NamedTuple):
+    """Loads on s structures: sums and extremes of the open window, and maps since the start."""
+
+    steps: np.ndarray  # (1,) steps in the open window
+    window_sum: np.ndarray  # (s, 6) force N and moment N m, summed over steps
+    window_extreme: np.ndarray  # (s, 5) fx min, fx max, fy min, fy max, horizontal resultant max, N
+    contact_sum: np.ndarray  # (s,) contacts, summed over steps
+    step_load: np.ndarray  # (s, 6) of this step
+    step_contacts: np.ndarray  # (s,) of this step
+    impulse_map: np.ndarray  # (s, ANGLE_BINS, HEIGHT_BINS) normal impulse, N s
+    map_origin: np.ndarray  # (s, 6) of a plane: origin and unit vector of its horizontal coordinate; of a pile: its centre
+    map_span: np.ndarray  # (s, 3) half width of the horizontal coordinate, lowest and highest height, m; half width 0 = angle
+    mode_steps: np.ndarray  # (2, MODE_COUNT) contact steps, ice on ice and ice on structure
+    mode_impulse: np.ndarray  # (2, MODE_COUNT) N s
+    mode_force: np.ndarray  # (2, MODE_COUNT) N, largest normal force
+    mode_overlap: np.ndarray  # (2, MODE_COUNT) m, largest overlap
+
+
+def empty_ledger() -> Ledger:
+    return Ledger(*(np.zeros(1) for _ in Ledger._fields))
+
+
+def empty_loads(map_origin: np.ndarray, map_span: np.ndarray) -> Loads:
+    """Nothing recorded yet; map_origin (s, 6) and map_span (s, 3) as in `Loads`."""
+    s = len(map_origin)
+    per_mode = (np.zeros((2, MODE_COUNT)) for _ in range(4))
+    return Loads(
+        np.zeros(1, np.int64), np.zeros((s, 6)), np.zeros((s, 5)), np.zeros(s, np.int64), np.zeros((s, 6)), np.zeros(s, np.int64),
+        np.zeros((s, ANGLE_BINS, HEIGHT_BINS)), map_origin, map_span, *per_mode,
+    )  # fmt: skip

@@ -1,0 +1,29 @@
+"""Numbers of a case that kernels need: contact parameters, water, domain. Constant during a run."""
+
+from enum import IntEnum
+from typing import NamedTuple
+
+
+class ContactModel(IntEnum):
+    """Which laws hold; `contact.laws` chooses by it."""
+
+    LIU2015 = 0
+
+
+class ContactSetting(NamedTuple):
+    model: int  # ContactModel
+    damping: float  # zeta_n of Liu 2015, Eq. (4)
+    friction: float  # mu of Eq. (6)
+    stiffness_ratio: float  # r_ns: tangential over normal stiffness
+
+
+class Surroundings(NamedTuple):
+    gravity: float  # m/s2, along -z
+    water: bool  # whether there is any
+    water_density: float  # kg/m3
+    current_x: float  # m/s
+    current_y: float  # m/s
+    drag_force: float  # C_d^F of Liu 2015, Eq. (26)
+    drag_moment: float  # C_d^M of Eq. (27)
+    period_x: float  # m, 0 = not periodic
+    period_y: float  # m, 0 = not periodic

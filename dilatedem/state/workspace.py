@@ -1,0 +1,46 @@
+"""Room that kernels need and that holds nothing from one step to the next (kernels never allocate)."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+#: corners of the largest face that fits into the clipping workspace, after clipping by another
+MOST_CORNERS = 256
+
+
+class Cells(NamedTuple):
+    """The grid in which neighbours are searched."""
+
+    most: int  # cells along one axis
+    start: np.ndarray  # (most^2 + 2,)
+    member: np.ndarray  # (n,)
+    cell_of: np.ndarray  # (n,)
+
+
+class Workspace(NamedTuple):
+    vertex: np.ndarray  # (v, 3) core vertices in world directions, from their body's centroid
+    face_normal: np.ndarray  # (f, 3) in world directions
+    turned: np.ndarray  # (n,) step at which a body's shape was turned last
+    awake: np.ndarray  # (m,) pairs to evaluate in this step
+    clip: np.ndarray  # (threads, 2, MOST_CORNERS, 3) polygons being clipped
+    wet: np.ndarray  # (floating, 5) submerged volume, centre of buoyancy (body frame), wetted area
+    hull: np.ndarray  # (threads, h, 4) outer vertices of one body, and their heights
+
+
+def make_cells(floating: int) -> Cells:
+    most = max(4, int(np.sqrt(4 * floating)) + 2)
+    return Cells(most, np.zeros(most * most + 2, np.int64), np.zeros(floating, np.int64), np.zeros(floating, np.int64))
+
+
+def make_workspace(shapes, hulls, capacity: int, threads: int) -> Workspace:
+    """Workspace for packed shapes and hulls, a list of `capacity` pairs and a number of threads."""
+    most = int(np.diff(hulls.vertex_start).max(initial=1))
+    return Workspace(
+        vertex=shapes.vertex.copy(),
+        face_normal=shapes.face_normal.copy(),
+        turned=np.full(len(shapes.radius), -1, np.int64),
+        awake=np.zeros(capacity, np.int64),
+        clip=np.zeros((threads, 2, MOST_CORNERS, 3)),
+        wet=np.zeros((len(hulls.prism), 5)),
+        hull=np.zeros((threads, most, 4)),
+    )

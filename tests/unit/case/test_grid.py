@@ -1,0 +1,70 @@
+"""Axes of a sweep: lists, ranges without drift, combinations in order, readable folders."""
+
+import pytest
+
+from dilatedem.case.grid import Axis, axis, cases, folder_name, seed_axis
+from dilatedem.errors import CaseError
+
+
+@pytest.mark.parametrize(
+    ("text", "values"),
+    [
+        ("k=0.1:1.0:0.1", (0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0)),
+        ("k=1:3:1", (1, 2, 3)),
+        ("k=0:1:0.4", (0.0, 0.4, 0.8)),
+        ("k=3:1:-1", (3, 2, 1)),
+        ("k=-0.2:0.2:0.2", (-0.2, 0.0, 0.2)),
+        ("k=1e-4:3e-4:1e-4", (1e-4, 2e-4, 3e-4)),
+        ("k=2:2:1", (2,)),
+        ("k=1,2.5,4:6:1", (1, 2.5, 4, 5, 6)),
+        ("k=[0.1,0],[0.2,0]", ([0.1, 0], [0.2, 0])),
+        ("k=open, wall", ("open", "wall")),
+        ('k="a,b",c', ("a,b", "c")),
+        ("k=true,false", (True, False)),
+        ('k="1:2"', ("1:2",)),
+    ],
+)
+def test_values(text, values):
+    found = axis(text)
+    assert found == Axis("k", values, "--vary k")
+    assert [type(value) for value in found.values] == [type(value) for value in values]
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("k", "--vary k: must be KEY=V1,V2,.. or KEY=START:STOP:STEP"),
+        ("k=", "--vary k: no value is given"),
+        ("k=1,,2", "--vary k: no value is given"),
+        ("k=1:2", "--vary k: 1:2: a range is START:STOP:STEP"),
+        ("k=1:2:x", "--vary k: 1:2:x: a range is START:STOP:STEP"),
+        ("k=1:2:0", "--vary k: 1:2:0: no step of 0 leads from 1 to 2"),
+        ("k=1:2:-1", "--vary k: 1:2:-1: no step of -1 leads from 1 to 2"),
+        ("k=0:1:1e-9", "--vary k: 0:1:1e-9: has 1000000001 values"),
+        ("k=1,2,1", "--vary k: 1 is given twice"),
+    ],
+)
+def test_faults(text, expected):
+    with pytest.raises(CaseError) as caught:
+        axis(text)
+    assert str(caught.value).startswith(expected)
+
+
+def test_combinations_change_the_last_axis_fastest():
+    points = cases([axis("a=1,2"), seed_axis(5, 2)])
+    assert [[override.value for override in point] for point in points] == [[1, 5], [1, 6], [2, 5], [2, 6]]
+    names = [folder_name(point) for point in points]
+    assert names == ["a=1__seed=5", "a=1__seed=6", "a=2__seed=5", "a=2__seed=6"]
+
+
+def test_grids_that_cannot_be_meant():
+    with pytest.raises(CaseError, match="--vary a: is varied twice"):
+        cases([axis("a=1,2"), axis("a=3")])
+    with pytest.raises(CaseError, match="the sweep has 1000000 cases"):
+        cases([Axis(key, tuple(range(1000)), key) for key in "ab"])
+
+
+def test_folder_names_suit_any_file_system():
+    texts = ("water.velocity=[0.3, 0]", "title=a/b c*", "water.enabled=true", "x=1e20")
+    axes = [axis(text) for text in texts]
+    assert folder_name(cases(axes)[0]) == "water.velocity=0.3,0__title=a_b_c___water.enabled=true__x=1e+20"

@@ -1,0 +1,67 @@
+"""Voronoi cells tile the domain, across the seam too, and each belongs to its point."""
+
+import numpy as np
+import pytest
+import shapely
+
+from dilatedem.field.tessellation import cells_of_points, voronoi_cells
+from dilatedem.geometry.outline import area, prepare
+
+BOUNDARIES = [(False, False), (True, False), (False, True), (True, True)]
+
+
+def images(size, periodic):
+    """Shifts to the neighbouring copies of a periodic domain."""
+    steps = [(-2, -1, 0, 1, 2) if is_periodic else (0,) for is_periodic in periodic]
+    return [np.array([i, j]) * size for i in steps[0] for j in steps[1]]
+
+
+@pytest.mark.parametrize("periodic", BOUNDARIES)
+@pytest.mark.parametrize("count", [1, 2, 3, 40, 400])
+def test_cells_tile_the_domain(count, periodic):
+    size = np.array([50.0, 20.0])
+    cells = voronoi_cells(size, count, periodic, seed=count)
+    assert len(cells) == count
+    assert sum(area(cell) for cell in cells) == pytest.approx(1000.0, rel=1e-12)
+    for axis in range(2):
+        reach = max(np.abs(cell[:, axis]).max() for cell in cells)
+        assert periodic[axis] or reach == 0.5 * size[axis]
+    copies = [shapely.Polygon(cell + shift) for shift in images(size, periodic) for cell in cells]
+    covered = shapely.union_all(copies).intersection(shapely.box(*(-0.5 * size), *(0.5 * size)))
+    assert covered.area == pytest.approx(1000.0, rel=1e-9)
+    for cell in cells[:40]:
+        prepare(cell)
+
+
+@pytest.mark.parametrize("periodic", BOUNDARIES)
+def test_cells_hold_what_is_nearest_to_their_point(periodic):
+    size, rng = np.array([10.0, 7.0]), np.random.default_rng(8)
+    points = (rng.random((12, 2)) - 0.5) * size
+    cells = cells_of_points(points, size, periodic)
+    places = (rng.random((300, 2)) - 0.5) * size
+    shifts = images(size, periodic)
+    copies = np.concatenate([points + shift for shift in shifts])
+    nearest = np.linalg.norm(places[:, None] - copies, axis=2).argmin(axis=1) % len(points)
+    for place, owner in zip(places, nearest, strict=True):
+        assert any(shapely.Polygon(cells[owner]).covers(shapely.Point(place - shift)) for shift in shifts)
+
+
+def test_regular_points_give_square_cells():
+    # four cells meet at every corner, and the domain's edge mirrors them: degenerate for the hull underneath
+    line = np.arange(5) - 2.0
+    points = np.stack(np.meshgrid(line, line), axis=-1).reshape(-1, 2)
+    for periodic in BOUNDARIES:
+        cells = cells_of_points(points, np.array([5.0, 5.0]), periodic)
+        assert all(len(cell) == 4 for cell in cells)
+        assert all(area(cell) == pytest.approx(1.0) for cell in cells)
+
+
+def test_seed_fixes_the_cells():
+    first, again, other = (voronoi_cells((50.0, 50.0), 30, (False, True), seed) for seed in (1, 1, 2))
+    assert all((a == b).all() for a, b in zip(first, again, strict=True))
+    assert not np.array_equal(first[0], other[0])
+
+
+def test_no_cells():
+    with pytest.raises(ValueError, match="at least 1"):
+        voronoi_cells((50.0, 50.0), 0, (False, True), seed=1)

@@ -1,0 +1,91 @@
+import h5py
+import numpy as np
+import pytest
+
+from dilatedem.output.archive import ContactStatistics, FloeTable, LoadMap, write_run_h5
+from dilatedem.state.modes import MODE_NAMES
+
+
+def content(duration=2.0):
+    rng = np.random.default_rng(2)
+    heights = np.linspace(-1.0, 1.0, 6)
+    angles, distances = np.linspace(-180, 180, 9), np.linspace(-5, 5, 5)
+    pile = LoadMap("pile", "pile", rng.random((8, 5)), angles, heights, duration, (10.0, 0.0), radius=2.0)
+    plane = LoadMap(
+        "wall", "plane", rng.random((4, 5)), distances, heights, duration, (0, 1, 0), axis=(0, 1, 0)
+    )
+    numbers = np.arange(7.0)
+    statistics = {
+        "ice_ice": ContactStatistics(np.arange(7), numbers, 2 * numbers, 3e-6 * numbers),
+        "ice_structure": ContactStatistics(np.arange(7), numbers, numbers, numbers),
+    }
+    outlines = [np.array([[0, 0], [1, 0], [0, 1.0]]), np.array([[3, 0], [4, 0], [4, 1], [3, 1.0]])]
+    floes = FloeTable(
+        body=np.array([0, 1]),
+        x0=np.array([0.3, 3.5]),
+        y0=np.array([0.3, 0.5]),
+        plan_area=np.array([0.5, 1.0]),
+        mass=np.array([200.0, 400.0]),
+        volume=np.array([0.2, 0.4]),
+        vertices=np.array([6, 8]),
+        outlines=outlines,
+    )
+    return [pile, plane], statistics, floes
+
+
+def test_layout(tmp_path):
+    path = tmp_path / "run.h5"
+    maps, statistics, floes = content()
+    write_run_h5(path, maps, statistics, floes)
+    with h5py.File(path) as file:
+        pile, plane = file["load_map/pile"], file["load_map/wall"]
+        np.testing.assert_array_equal(pile["impulse_Ns"], maps[0].impulse)
+        np.testing.assert_array_equal(pile["angle_edges_deg"], maps[0].edges)
+        np.testing.assert_array_equal(plane["distance_edges_m"], maps[1].edges)
+        np.testing.assert_array_equal(pile["height_edges_m"], maps[0].height_edges)
+        assert (pile.attrs["kind"], pile.attrs["duration_s"], pile.attrs["radius_m"]) == ("pile", 2.0, 2.0)
+        np.testing.assert_array_equal(pile.attrs["center_m"], [10.0, 0.0])
+        np.testing.assert_array_equal(plane.attrs["axis"], [0, 1, 0])
+        assert tuple(file["contacts"].attrs["mode_names"]) == MODE_NAMES
+        ice_ice = file["contacts/ice_ice"]
+        np.testing.assert_array_equal(ice_ice["max_overlap_m"], statistics["ice_ice"].max_overlap)
+        np.testing.assert_array_equal(file["contacts/ice_structure/steps"], np.arange(7))
+        start = file["floes/outline_start"][:]
+        points = file["floes/outline_points"][:]
+        for i, outline in enumerate(floes.outlines):
+            np.testing.assert_array_equal(points[start[i] : start[i + 1]], outline)
+        np.testing.assert_array_equal(file["floes/mass_kg"], floes.mass)
+        names = {"body", "x0_m", "y0_m", "plan_area_m2", "mass_kg", "volume_m3", "vertices"}
+        assert set(file["floes"]) == names | {"outline_points", "outline_start"}
+
+
+def test_rewritten_whole_and_reproducibly(tmp_path):
+    path = tmp_path / "run.h5"
+    write_run_h5(path, *content(duration=1.0))
+    (tmp_path / "run.h5.tmp").write_bytes(b"left by a kill")
+    write_run_h5(path, *content(duration=2.0))
+    write_run_h5(tmp_path / "again.h5", *content(duration=2.0))
+    assert path.read_bytes() == (tmp_path / "again.h5").read_bytes()
+    assert sorted(file.name for file in tmp_path.iterdir()) == ["again.h5", "run.h5"]
+
+
+def test_wrong_shapes_leave_the_old_file(tmp_path):
+    path = tmp_path / "run.h5"
+    maps, statistics, floes = content()
+    write_run_h5(path, maps, statistics, floes)
+    before = path.read_bytes()
+    bad_map = LoadMap("pile", "pile", np.zeros((3, 3)), np.zeros(9), np.zeros(6), 1.0, (0, 0))
+    with pytest.raises(ValueError, match="load map of pile"):
+        write_run_h5(path, [bad_map], statistics, floes)
+    short = ContactStatistics(*[np.zeros(6)] * 4)
+    with pytest.raises(ValueError, match="ice_ice: one value"):
+        write_run_h5(path, maps, {"ice_ice": short}, floes)
+    assert path.read_bytes() == before
+
+
+def test_no_floes_and_no_structures(tmp_path):
+    zeros = np.zeros(0)
+    write_run_h5(tmp_path / "run.h5", [], {}, FloeTable(zeros, zeros, zeros, zeros, zeros, zeros, zeros, []))
+    with h5py.File(tmp_path / "run.h5") as file:
+        assert file["floes/outline_points"].shape == (0, 2)
+        np.testing.assert_array_equal(file["floes/outline_start"], [0])

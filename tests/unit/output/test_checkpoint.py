@@ -1,0 +1,122 @@
+import subprocess
+import sys
+from typing import NamedTuple
+
+import numpy as np
+import pytest
+
+from dilatedem.errors import CaseError
+from dilatedem.output import checkpoint
+
+
+class Motion(NamedTuple):
+    position: np.ndarray
+    count: np.ndarray
+    awake: np.ndarray
+    empty: np.ndarray
+    short: np.ndarray
+
+
+class Clock(NamedTuple):
+    time: float
+    step: int
+    running: bool
+    law: str
+
+
+def state():
+    rng = np.random.default_rng(3)
+    odd = np.array([0.1, -0.0, np.inf, np.nan, 5e-324, np.nextafter(1.0, 2.0)])
+    nan_with_payload = np.array([0x7FF8000000000123], dtype=np.uint64).view(np.float64)
+    position = np.concatenate([rng.normal(size=44), odd, nan_with_payload]).reshape(17, 3)
+    motion = Motion(
+        position,
+        np.array([2**62, -1], dtype=np.int64),
+        np.array([[True, False]]),
+        np.zeros((0, 3)),
+        np.array([0.1], dtype=np.float32),
+    )
+    return motion, Clock(0.1 + 0.2, 2**53 + 1, True, "hertz, größer")
+
+
+def test_round_trip_is_bit_exact(tmp_path):
+    motion, clock = state()
+    meta = {"step": 2**53 + 1, "offsets": {"forces.csv": 123}, "time": 0.1 + 0.2, "text": "é"}
+    checkpoint.save(tmp_path / "restart.h5", {"motion": motion, "clock": clock}, meta)
+    groups, found_meta = checkpoint.load(tmp_path / "restart.h5")
+    assert found_meta == meta
+    assert list(tmp_path.iterdir()) == [tmp_path / "restart.h5"]
+    restored = checkpoint.restore(Motion, groups["motion"])
+    for given, found in zip(motion, restored, strict=True):
+        assert found.dtype == given.dtype and found.shape == given.shape
+        assert found.tobytes() == given.tobytes()
+    found = checkpoint.restore(Clock, groups["clock"])
+    assert found == clock
+    assert [type(value) for value in found] == [float, int, bool, str]
+
+
+def test_an_unfinished_write_leaves_the_old_checkpoint(tmp_path):
+    motion, clock = state()
+    path = tmp_path / "restart.h5"
+    checkpoint.save(path, {"clock": clock}, {"step": 1})
+    whole = path.read_bytes()
+    leftover = tmp_path / "restart.h5.tmp"
+    leftover.write_bytes(whole[: len(whole) // 2])  # killed while writing
+    assert checkpoint.load(path)[1] == {"step": 1}
+    checkpoint.save(path, {"clock": clock, "motion": motion}, {"step": 2})
+    assert checkpoint.load(path)[1] == {"step": 2}
+    assert not leftover.exists()
+
+
+def test_a_failed_write_leaves_the_old_checkpoint(tmp_path):
+    class Wrong(NamedTuple):
+        names: list
+
+    path = tmp_path / "restart.h5"
+    checkpoint.save(path, {"clock": state()[1]}, {"step": 1})
+    with pytest.raises(TypeError, match="names"):
+        checkpoint.save(path, {"wrong": Wrong(["a"])}, {"step": 2})
+    assert checkpoint.load(path)[1] == {"step": 1}
+    assert list(tmp_path.iterdir()) == [path]
+
+
+def test_killed_at_any_moment_the_checkpoint_is_whole(tmp_path):
+    # A process that does nothing but save is killed while it does so.
+    program = (
+        "import sys\nfrom typing import NamedTuple\nimport numpy as np\n"
+        "from dilatedem.output import checkpoint\n"
+        "class A(NamedTuple):\n    x: np.ndarray\n"
+        "n = 0\n"
+        "while True:\n"
+        "    checkpoint.save(sys.argv[1], {'a': A(np.full(20000, float(n)))}, {'n': n})\n"
+        "    n += 1\n"
+        "    if n == 3: print('ready', flush=True)\n"
+    )
+    path = tmp_path / "restart.h5"
+    for _ in range(2):
+        process = subprocess.Popen([sys.executable, "-c", program, str(path)], stdout=subprocess.PIPE)
+        process.stdout.readline()
+        process.kill()
+        process.wait()
+        process.stdout.close()
+        groups, meta = checkpoint.load(path)
+        assert np.all(groups["a"]["x"] == meta["n"])
+
+
+def test_faults_are_one_sentence(tmp_path):
+    path = tmp_path / "restart.h5"
+    with pytest.raises(CaseError, match="no checkpoint"):
+        checkpoint.load(path)
+    checkpoint.save(path, {"clock": state()[1]}, {})
+    whole = path.read_bytes()
+    path.write_bytes(whole[:-200])
+    with pytest.raises(CaseError, match="not a readable checkpoint"):
+        checkpoint.load(path)
+    path.write_bytes(b"")
+    with pytest.raises(CaseError, match="not a readable checkpoint"):
+        checkpoint.load(path)
+
+
+def test_fields_of_another_version_are_named():
+    with pytest.raises(CaseError, match="lacks law and has unknown laws: .*another version"):
+        checkpoint.restore(Clock, {"time": 0.0, "step": 1, "running": True, "laws": "x"})

@@ -1,0 +1,140 @@
+"""Figures: what they hold, that they are true to scale, and that they come out the same every time."""
+
+import hashlib
+from dataclasses import replace
+
+import matplotlib
+import numpy as np
+import pytest
+
+from dilatedem.post import canvas
+from dilatedem.post.figures_field import field_figure, plan_figure, speed_figure
+from dilatedem.post.figures_loads import (
+    force_figure,
+    load_around_figure,
+    load_map_figure,
+    peak_figure,
+    seen_from,
+)
+from dilatedem.post.folders import run_drawings
+from dilatedem.post.plan import choose_view, periodic_copies
+from dilatedem.post.read import open_run
+from dilatedem.post.snapshots import snapshots_at
+
+SLOPE = {"kind": "plane", "name": "slope", "point": [8.0, 0.0, 0.0], "normal": [-1.0, 0.0, 1.0]}
+FLOOR = {"kind": "plane", "name": "floor", "point": [0.0, 0.0, -5.0], "normal": [0.0, 0.0, 1.0]}
+
+
+@pytest.fixture(scope="module")
+def run(make_run, tmp_path_factory):
+    return open_run(make_run(tmp_path_factory.mktemp("figures") / "run"))
+
+
+def square(x, y, half=1.0):
+    return np.array([[x - half, y - half], [x + half, y - half], [x + half, y + half], [x - half, y + half]])
+
+
+def test_floes_across_a_periodic_side_are_drawn_on_both(run):
+    outlines = [square(0.0, 0.0), square(3.0, 7.8), square(9.8, 0.0)]  # y is periodic at 8, x is open
+    drawn, owner = periodic_copies(run, outlines)
+    assert owner.tolist() == [0, 1, 2, 1]
+    assert np.allclose(drawn[3], square(3.0, 7.8 - 16.0))
+
+
+def test_floe_in_the_corner_of_two_periodic_axes_has_three_images(run):
+    case = run.case | {"domain": run.case["domain"] | {"x_boundary": "periodic"}}
+    drawn, owner = periodic_copies(replace(run, case=case), [square(9.5, -7.5)])
+    assert owner.tolist() == [0, 0, 0, 0]
+    centres = {tuple(np.round(outline.mean(axis=0), 6)) for outline in drawn}
+    assert centres == {(9.5, -7.5), (-10.5, -7.5), (9.5, 8.5), (-10.5, 8.5)}
+
+
+def test_view_follows_floes_through_open_sides_but_not_for_ever(run):
+    inside = choose_view(run, [[square(0.0, 0.0)]])
+    beyond = choose_view(run, [[square(14.0, 0.0)]])
+    far = choose_view(run, [[square(500.0, 0.0)]])
+    assert inside.x[1] == pytest.approx(10.0 + 0.4)
+    assert beyond.x[1] == pytest.approx(15.0 + 0.4)
+    assert far.x[1] == pytest.approx(20.0 + 0.4)
+
+
+def test_plan_views_are_true_to_scale_and_hold_every_floe(run):
+    snapshots = snapshots_at(run, (0.0, 0.5, 1.0))
+    drawing = plan_figure(run, snapshots)
+    panels = drawing.figure.axes
+    assert [axes.get_title("left") for axes in panels] == ["t = 0 s", "t = 5 s", "t = 10 s"]
+    for axes in panels:
+        assert axes.get_aspect() == 1.0
+        assert axes.get_xlabel() + axes.get_ylabel() != ""
+        assert len(axes.collections[0].get_paths()) >= len(run.floes.outlines)
+
+
+def test_speed_map_has_one_scale_for_all_times(run):
+    drawing = speed_figure(run, snapshots_at(run, (0.0, 1.0)))
+    panels = [axes for axes in drawing.figure.axes if axes.collections and axes.get_title("left")]
+    for axes in panels:
+        assert axes.collections[0].get_clim() == (0.0, pytest.approx(0.3))
+    assert len(panels) == 2
+    assert "m/s" in drawing.figure.axes[-1].get_ylabel()
+
+
+def test_force_history_keeps_the_extremes_when_windows_are_joined(run):
+    history = run.forces["pile"]
+    long = {name: np.tile(column, 5) for name, column in history.items()}
+    long["time_s"] = 0.01 * np.arange(1, len(long["time_s"]) + 1)
+    drawing = force_figure("pile", long)
+    top = drawing.figure.axes[0].collections[0].get_datalim(drawing.figure.axes[0].transData).y1
+    assert top == pytest.approx(history["fx_max_N"].max() / 1e3)
+    assert "kN" in drawing.figure.axes[0].get_ylabel()
+
+
+def test_quiet_structure_has_no_peak_to_draw(run):
+    still = {name: np.zeros_like(column) for name, column in run.forces["pile"].items()}
+    still["time_s"] = run.forces["pile"]["time_s"]
+    assert peak_figure("pile", still) is None
+    assert force_figure("pile", still) is not None
+
+
+def test_polar_bars_stand_at_their_sectors(run):
+    load_map = run.load_maps["pile"]
+    axes = load_around_figure(load_map, 180.0).figure.axes[0]
+    heights = np.array([bar.get_height() for bar in axes.patches])
+    starts = np.degrees([bar.get_x() for bar in axes.patches])
+    assert starts == pytest.approx(load_map.place_edges[:-1])
+    arc = load_map.radius * np.radians(np.diff(load_map.place_edges))
+    assert np.sum(heights * arc) * 1e3 == pytest.approx(load_map.impulse.sum() / load_map.duration)
+
+
+def test_sectors_in_the_order_seen_from_upstream():
+    edges = np.linspace(-180.0, 180.0, 5)
+    turned, values = seen_from(180.0, edges, np.array([1, 2, 3, 4]))
+    assert turned.tolist() == [-180.0, -90.0, 0.0, 90.0, 180.0]
+    assert values.tolist() == [3, 4, 1, 2]
+
+
+def test_untouched_structure_has_no_load_map(run):
+    load_map = run.load_maps["pile"]
+    assert load_map_figure(replace(load_map, impulse=0.0 * load_map.impulse), 180.0) is None
+
+
+def test_every_structure_gets_its_figures_and_a_plane_no_polar_plot(make_run, tmp_path):
+    pile = {"kind": "pile", "name": "pile", "center": [4.0, 0.0], "radius": 1.5}
+    folder = make_run(tmp_path / "run", structures=(pile, SLOPE, FLOOR), snapshots=False, current=(0.0, 0.0))
+    names = [drawing.name for drawing in run_drawings(open_run(folder))]
+    assert names.count("load_around_pile") == 1
+    assert {"force_slope", "force_floor", "load_map_slope", "peak_floor"} <= set(names)
+    assert not {"load_around_slope", "plan", "speed"} & set(names)
+
+
+def test_same_bytes_every_time_whatever_the_users_settings(run, tmp_path):
+    def digest(folder):
+        canvas.save(field_figure(run, run.floes.outlines), folder)
+        return [
+            hashlib.sha256((folder / f"field.{kind}").read_bytes()).hexdigest() for kind in ("png", "svg")
+        ]
+
+    first = digest(tmp_path / "a")
+    with matplotlib.rc_context({"font.size": 20.0, "axes.facecolor": "black", "svg.hashsalt": None}):
+        assert digest(tmp_path / "b") == first
+    svg = (tmp_path / "a/field.svg").read_text()
+    assert "<dc:date>" not in svg

@@ -1,0 +1,188 @@
+"""The command line: exit codes, where messages go, what is called with what. The simulation is a stand-in."""
+
+import io
+import json
+import subprocess
+import sys
+import types
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+import dilatedem
+from dilatedem.case.load import load
+from dilatedem.cli import _clock, app
+from dilatedem.errors import CaseError, Interrupted, SimulationStopped
+
+PILE = Path(__file__).parents[2] / "cases" / "pile.toml"
+
+
+@pytest.fixture
+def simulation(monkeypatch, tmp_path):
+    """A simulation that notes its calls, writes a summary, and fails with `fault` where a test sets one."""
+    monkeypatch.chdir(tmp_path)
+    fake = types.SimpleNamespace(calls=[], fault=None)
+
+    def run(case, out, **options):
+        fake.calls.append((case, out, options))
+        if fake.fault is not None:
+            raise fake.fault
+        out.mkdir(parents=True)
+        loads = {"pile": {"fh_max_N": 85321.0, "fh_max_time_s": 43.2}}
+        summary = {"status": "completed", "simulated_s": 100.0, "wall_s": 83.4, "loads": loads}
+        (out / "summary.json").write_text(json.dumps(summary))
+
+    fake.run = run
+    fake.check = lambda case: [("floes", 200), ("time step", 5.12345678e-5)]
+    monkeypatch.setitem(sys.modules, "dilatedem.simulation", fake)
+    monkeypatch.setattr(dilatedem, "simulation", fake, raising=False)
+    return fake
+
+
+def invoke(*arguments: str, stdin: str | None = None):
+    return CliRunner().invoke(app, [str(argument) for argument in arguments], input=stdin)
+
+
+def test_run_passes_the_case_and_says_where_the_results_are(simulation):
+    result = invoke("run", PILE, "--set", "water.velocity=[0.5,0]", "--threads", "2")
+    assert result.exit_code == 0
+    assert result.stdout == (
+        "runs/pile: 100 s simulated in 1 min 23 s; peak load on pile 85.3 kN at 43.20 s\n"
+    )
+    [(case, out, options)] = simulation.calls
+    assert case == load(PILE, ["water.velocity=[0.5,0]"])
+    assert out == Path("runs/pile")
+    assert options == {"threads": 2, "resume": False, "overwrite": False, "quiet": False}
+
+
+def test_run_from_standard_input_quietly(simulation, monkeypatch):
+    result = invoke("run", "-", "--quiet", "--overwrite", stdin="[ice]\ndensity = 900\n")
+    assert (result.exit_code, result.stdout, result.stderr) == (0, "", "")
+    [(case, out, options)] = simulation.calls
+    assert (case.ice.density, out) == (900.0, Path("runs/case"))
+    assert options["quiet"] and options["overwrite"]
+
+
+@pytest.mark.parametrize(
+    ("fault", "code"),
+    [
+        (CaseError("runs/pile: holds a run"), 2),
+        (SimulationStopped("bodies 3 and 7 overlap"), 3),
+        (Interrupted("state saved"), 130),
+        (KeyboardInterrupt(), 130),
+        (PermissionError(13, "Permission denied", "runs/pile"), 2),
+        (OSError(28, "No space left on device", "runs/pile/run.h5"), 3),
+    ],
+)
+def test_known_faults_end_with_their_code_and_no_traceback(simulation, fault, code):
+    simulation.fault = fault
+    result = invoke("run", PILE)
+    assert result.exit_code == code
+    assert result.stdout == ""
+    assert "Traceback" not in result.stderr
+    assert len(result.stderr.splitlines()) == 1
+
+
+def test_an_unknown_fault_keeps_its_traceback(simulation):
+    simulation.fault = ZeroDivisionError("a bug")
+    assert isinstance(invoke("run", PILE).exception, ZeroDivisionError)
+
+
+def test_a_wrong_case_is_answered_before_anything_is_called(simulation, tmp_path):
+    result = invoke("run", PILE, "--set", "contact.friction=-0.1")
+    assert result.exit_code == 2
+    assert result.stderr == "--set contact.friction: contact.friction = -0.1: must be at least 0\n"
+    assert simulation.calls == []
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_wrong_command_lines(simulation):
+    for arguments in (["run"], ["walk"], ["run", PILE, "--threads", "0"], ["run", PILE, "--nonsense"]):
+        assert invoke(*arguments).exit_code == 2
+    result = invoke("run", PILE, "--resume", "--overwrite")
+    assert (result.exit_code, result.stderr) == (2, "give either --resume or --overwrite, not both\n")
+
+
+def test_check_prints_labels_and_values(simulation):
+    result = invoke("check", PILE)
+    assert result.stdout == "floes      200\ntime step  5.12346e-05\n"
+
+
+def test_generate(simulation, monkeypatch):
+    fake = types.SimpleNamespace(generate=lambda case, out: {"floes": 200, "size": {"mean_m": 2.8}})
+    monkeypatch.setitem(sys.modules, "dilatedem.generate", fake)
+    result = invoke("generate", PILE, "--out", "here")
+    assert result.exit_code == 0
+    assert result.stdout == (
+        "floes        200\nsize.mean_m  2.8\nfield.vtu, field.png and field.json are in here\n"
+    )
+
+
+def test_post_and_info(simulation, monkeypatch, tmp_path):
+    asked = []
+    fake = types.SimpleNamespace(post=asked.append, info=lambda folder: f"{folder.name} is a run")
+    monkeypatch.setitem(sys.modules, "dilatedem.post", fake)
+    result = invoke("info", tmp_path / "none")
+    assert (result.exit_code, result.stderr) == (2, f"{tmp_path}/none: no such folder\n")
+    result = invoke("post", tmp_path)
+    assert (result.exit_code, result.stderr) == (2, f"{tmp_path}: holds no run\n")
+    (tmp_path / "summary.json").touch()
+    assert invoke("post", tmp_path).exit_code == 0
+    assert asked == [[tmp_path]]
+    assert invoke("info", tmp_path).stdout == f"{tmp_path.name} is a run\n"
+
+
+def test_sweep_passes_its_options(simulation, monkeypatch):
+    asked = {}
+    table = Path("runs/pile-sweep/sweep.csv")
+    monkeypatch.setattr("dilatedem.sweep.sweep", lambda case, **options: asked.update(options) or table)
+    options = "--vary a=1 --vary b=2 --seeds 3 --jobs 2 --set c=1"
+    result = invoke("sweep", PILE, *options.split())
+    assert result.exit_code == 0
+    assert asked == {
+        "vary": ["a=1", "b=2"], "seeds": 3, "jobs": 2, "scheduler": None, "out": Path("runs/pile-sweep"),
+        "resume": False, "overrides": ["c=1"],
+    }
+
+
+def test_schema_is_json():
+    assert json.loads(invoke("schema").stdout)["title"] == "Case"
+
+
+def test_help_shows_examples():
+    for command in ("run", "generate", "check", "post", "info", "sweep"):
+        text = invoke(command, "-h").stdout
+        assert f"dilatedem {command} " in text
+        assert "Example" in text
+
+
+def test_help_and_version_import_no_physics():
+    code = (
+        "import sys\nfrom dilatedem.cli import main\nsys.argv = ['dilatedem', sys.argv[1]]\n"
+        "try:\n    main()\nfinally:\n    print(sorted({'numpy', 'numba', 'pydantic'} & set(sys.modules)))"
+    )
+    for option in ("--help", "--version"):
+        command = [sys.executable, "-c", code, option]
+        done = subprocess.run(command, capture_output=True, text=True, check=True)
+        assert done.stdout.endswith("[]\n")
+        assert dilatedem.__version__ in done.stdout or option == "--help"
+
+
+def test_module_is_a_command():
+    done = subprocess.run(
+        [sys.executable, "-m", "dilatedem.cli", "run", "nowhere.toml"], capture_output=True, text=True
+    )
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr == "nowhere.toml: no such case file\n"
+
+
+def test_times_are_readable():
+    assert [_clock(seconds) for seconds in (3.14, 59.97, 83.4, 3600, 7322)] == [
+        "3.1 s", "1 min 0 s", "1 min 23 s", "1 h 0 min", "2 h 2 min"
+    ]
+
+
+def test_pipe_as_standard_input(simulation, monkeypatch):
+    monkeypatch.setattr("sys.stdin", io.StringIO(""))
+    assert invoke("check", "-", stdin="").exit_code == 0

@@ -1,0 +1,198 @@
+"""A sweep checks everything first, runs each case in its own process, and tells what became of each.
+
+The simulation is a stand-in that reads its case from standard input and writes a summary.
+"""
+
+import csv
+import json
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from dilatedem import sweep as sweeps
+from dilatedem.case.load import load
+from dilatedem.errors import CaseError, SimulationStopped
+from dilatedem.sweep import sweep
+
+PILE = Path(__file__).parents[2] / "cases" / "pile.toml"
+
+# Stands for `dilatedem run - --out FOLDER`: its first argument. Friction tells it how to fare.
+RUN = """\
+import json, os, pathlib, signal, sys, time, tomllib
+folder, resume = pathlib.Path(sys.argv[1]), "--resume" in sys.argv
+text = sys.stdin.read()
+case = tomllib.loads(text)
+assert os.environ["NUMBA_NUM_THREADS"] == "1"
+folder.mkdir(parents=True, exist_ok=True)
+(folder / "case.toml").write_text(text)
+fate = case["contact"]["friction"]
+def summarise(status):
+    speed = case["water"]["velocity"][0]
+    loads = {"pile": {"fx_max_N": speed * 1e5, "fx_mean_N": 1e3, "fy_max_N": 2.0, "fy_min_N": -2.0,
+                      "fh_max_N": speed * 1e5}}
+    summary = {"status": status, "steps": 7, "wall_s": 0.5, "loads": loads, "resumed": resume,
+               "energy": {"residual_over_work": 1e-4}}
+    (folder / "summary.json").write_text(json.dumps(summary))
+def interrupted(*_):
+    (folder / "restart.h5").touch()
+    summarise("interrupted")
+    sys.exit(130)
+signal.signal(signal.SIGINT, interrupted)
+if fate == 0.3:
+    print("bodies 3 and 7 overlap", file=sys.stderr); summarise("stopped"); sys.exit(3)
+if fate == 0.4:
+    raise ZeroDivisionError("a bug")
+if fate == 0.5:
+    os.kill(os.getpid(), signal.SIGKILL)
+if fate == 0.6:
+    (folder / "started").touch(); time.sleep(60)
+summarise("completed")
+"""
+
+
+def stand_in(job):
+    resume = ["--resume"] if (job.folder / "restart.h5").exists() else []
+    return [sys.executable, "-S", "-c", RUN, str(job.folder), *resume]
+
+
+@pytest.fixture
+def quick(monkeypatch):
+    monkeypatch.setattr(sweeps, "_command", stand_in)
+    monkeypatch.setattr(sweeps, "_compile_once", lambda: None)
+
+
+def rows(out: Path) -> list[dict[str, str]]:
+    with open(out / "sweep.csv", newline="", encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
+def test_grid_of_completed_cases(quick, tmp_path, capsys):
+    out = tmp_path / "sweep"
+    table = sweep(PILE, vary=["water.velocity.0=0.1:0.3:0.1"], seeds=2, jobs=2, out=out)
+    assert table == out / "sweep.csv"
+    found = rows(out)
+    assert [row["run"] for row in found] == [
+        f"water.velocity.0={speed}__seed={seed}" for speed in (0.1, 0.2, 0.3) for seed in (1, 2)
+    ]
+    assert list(found[0]) == [
+        "water.velocity.0", "seed", "run", "status", "steps", "wall_s", "pile_fx_max_N", "pile_fx_mean_N",
+        "pile_fy_max_N", "pile_fy_min_N", "pile_fh_max_N", "residual_over_work", "message",
+    ]
+    assert {row["status"] for row in found} == {"completed"}
+    last = found[-1]
+    assert (last["water.velocity.0"], last["seed"], last["pile_fx_max_N"]) == ("0.3", "2", "30000.0")
+    case = load(out / last["run"] / "case.toml")
+    assert case == load(PILE, ["water.velocity=[0.3,0]", "field.seed=2"])
+    assert "[6/6]" in capsys.readouterr().err
+
+
+def test_failures_are_rows_and_leave_the_others_alone(quick, tmp_path):
+    out = tmp_path / "sweep"
+    with pytest.raises(SimulationStopped) as caught:
+        sweep(PILE, vary=["contact.friction=0.1,0.3,0.4,0.5"], jobs=2, out=out)
+    assert str(caught.value).splitlines() == [
+        f"{out}: 3 of 4 cases did not finish:",
+        "  contact.friction=0.3: stopped: bodies 3 and 7 overlap",
+        "  contact.friction=0.4: failed: ZeroDivisionError: a bug",
+        "  contact.friction=0.5: failed: killed by signal 9",
+    ]
+    assert [(row["status"], row["message"]) for row in rows(out)] == [
+        ("completed", ""),
+        ("stopped", "bodies 3 and 7 overlap"),
+        ("failed", "ZeroDivisionError: a bug"),
+        ("failed", "killed by signal 9"),
+    ]
+    assert "Traceback" in (out / "contact.friction=0.4.log").read_text()
+
+
+def test_vectors_and_words_vary_too(quick, tmp_path):
+    sweep(PILE, vary=["water.velocity=[0.1,0],[0.2,0]", "domain.x_boundary=open,wall"], out=tmp_path / "s")
+    found = rows(tmp_path / "s")
+    assert [(row["water.velocity"], row["domain.x_boundary"]) for row in found] == [
+        ("[0.1, 0]", "open"), ("[0.1, 0]", "wall"), ("[0.2, 0]", "open"), ("[0.2, 0]", "wall")
+    ]
+    assert found[1]["run"] == "water.velocity=0.1,0__domain.x_boundary=wall"
+
+
+def test_everything_is_checked_before_anything_is_written(quick, tmp_path):
+    out = tmp_path / "sweep"
+    for options, expected in [
+        ({}, "nothing varies: give --vary KEY=V1,V2,.. or --seeds N"),
+        ({"vary": ["contact.friction=0.1,-0.2"]}, "--vary contact.friction: contact.friction = -0.2: must"),
+        ({"vary": ["contact.fricton=1"]}, "--vary contact.fricton: contact.fricton: unknown key; did you"),
+        ({"seeds": 2, "overrides": ["ice.density=0"]}, "--set ice.density: ice.density = 0: must be greater"),
+        ({"seeds": 2, "scheduler": "tcp://a"}, "--scheduler tcp://a: sweeps over a cluster are not"),
+        ({"seeds": 2, "vary": ["field.seed=1,2"]}, "give either --vary field.seed or --seeds, not both"),
+        ({"vary": ["title=a/b,a*b"]}, "two cases would share the folder title=a_b"),
+    ]:
+        with pytest.raises(CaseError) as caught:
+            sweep(PILE, out=out, **options)
+        assert str(caught.value).startswith(expected)
+    with pytest.raises(CaseError) as caught:
+        sweep(PILE, vary=["contact.friction=-30:-1:1"], out=out)
+    assert str(caught.value).splitlines()[-1] == "... and 10 more"
+    assert not out.exists()
+
+
+def test_a_folder_with_runs_is_not_overwritten(quick, tmp_path):
+    sweep(PILE, vary=["contact.friction=0.1"], out=tmp_path)
+    with pytest.raises(CaseError, match="holds a sweep already; go on with --resume"):
+        sweep(PILE, vary=["contact.friction=0.2"], out=tmp_path)
+    with pytest.raises(CaseError, match="holds a single run"):
+        sweep(PILE, seeds=1, out=tmp_path / "contact.friction=0.1")
+
+
+def test_resume_skips_the_finished_and_goes_on_with_the_others(quick, tmp_path):
+    sweep(PILE, vary=["water.velocity.0=0.1,0.2"], out=tmp_path)
+    first, second = (tmp_path / row["run"] for row in rows(tmp_path))
+    before = (first / "summary.json").stat().st_mtime_ns
+    (second / "restart.h5").touch()
+    (second / "summary.json").write_text('{"status": "interrupted"}')
+    sweep(PILE, vary=["water.velocity.0=0.1,0.2,0.4"], out=tmp_path, resume=True)
+    assert (first / "summary.json").stat().st_mtime_ns == before
+    assert json.loads((second / "summary.json").read_text())["resumed"] is True
+    assert [row["status"] for row in rows(tmp_path)] == ["completed"] * 3
+    with pytest.raises(CaseError, match="case.toml: is not the case of this sweep"):
+        sweep(PILE, vary=["water.velocity.0=0.1"], overrides=["ice.density=900"], out=tmp_path, resume=True)
+
+
+def test_command_of_a_case(tmp_path):
+    [job] = sweeps.plan(PILE, vary=["ice.density=900"], out=tmp_path)
+    command = [sys.executable, "-m", "dilatedem.cli", "run", "-", "--out", str(job.folder), "--quiet"]
+    assert sweeps._command(job) == command
+    job.folder.mkdir()
+    assert sweeps._command(job) == [*command, "--overwrite"]
+    (job.folder / "restart.h5").touch()
+    assert sweeps._command(job) == [*command, "--resume"]
+
+
+@pytest.mark.parametrize("signal_number", [signal.SIGINT, signal.SIGTERM])
+def test_an_interrupt_lets_the_running_cases_save_their_state(tmp_path, signal_number):
+    out = tmp_path / "sweep"
+    program = (
+        "import sys\nsys.path.insert(0, sys.argv.pop(1))\n"
+        "import test_sweep\nfrom dilatedem import cli, sweep\n"
+        "sweep._command, sweep._compile_once = test_sweep.stand_in, lambda: None\ncli.main()"
+    )
+    arguments = ["sweep", PILE, "--vary", "contact.friction=0.1,0.6", "--seeds", "2", "--jobs", "3"]
+    arguments += ["--out", out]
+    process = subprocess.Popen(
+        [sys.executable, "-c", program, str(Path(__file__).parent), *map(str, arguments)],
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+    sleeping = [out / f"contact.friction=0.6__seed={seed}" for seed in (1, 2)]
+    for _ in range(200):
+        if all((folder / "started").exists() for folder in sleeping):
+            break
+        time.sleep(0.05)
+    process.send_signal(signal_number)
+    _, said = process.communicate(timeout=20)
+    assert process.returncode == 130, said
+    assert "interrupted with 2 of 4 cases completed; --resume goes on" in said
+    assert [row["status"] for row in rows(out)] == ["completed"] * 2 + ["interrupted"] * 2
+    assert all((folder / "restart.h5").exists() for folder in sleeping)
