@@ -190,14 +190,21 @@ def field_facts(case: Case, field: FloeField, explicit: list[PlacedBody]) -> dic
 
 
 def _picture(case: Case, bodies: list[PlacedBody]) -> Callable[[Path], None]:
-    """Save the plan of the field, floes coloured by size, as PNG under the path that the result is called with."""
+    """The plan of the field, floes coloured by size; call the result with a path to save it there as PNG."""
     # Imported here: matplotlib takes half a second, which a wrong case should not wait for.
     from dilatedem.post import canvas, plan
     from dilatedem.post.figures_field import panel_height
     from dilatedem.post.read import RunFolder
 
     # The figures of a run are drawn from its folder; this is one that holds nothing but the case.
-    scene = RunFolder(Path(), case.model_dump(mode="json"), {}, {}, {}, [])
+    scene = RunFolder(
+        path=Path(),
+        case=case.model_dump(mode="json"),
+        summary={},
+        forces={},
+        energy={},
+        snapshots=[],
+    )
 
     @canvas.styled
     def draw() -> canvas.Drawing:
@@ -214,12 +221,18 @@ def _picture(case: Case, bodies: list[PlacedBody]) -> Callable[[Path], None]:
         plan.draw_current(axes, scene)
         bar = figure.colorbar(floes, ax=axes, shrink=0.85, pad=0.02)
         bar.set_label("Floe size, root of the plan area (m)")
-        axes.set_title(
-            f"{len(bodies)} floes" + (f", seed {case.field.seed}" if case.field.source == "voronoi" else "")
-        )
+        axes.set_title(_title(case, len(bodies)))
         return canvas.Drawing("field", "Ice field", "", figure)
 
     drawing = draw()
     return lambda path: drawing.figure.savefig(
         path, format="png", dpi=canvas.PNG_DPI, metadata={"Software": None}
     )
+
+
+def _title(case: Case, count: int) -> str:
+    floes = count - len(case.body)
+    parts = [f"{floes} floes"] if case.field.source == "voronoi" else []
+    if case.body:
+        parts.append(f"{len(case.body)} {'body' if len(case.body) == 1 else 'bodies'}")
+    return " and ".join(parts) + (f", seed {case.field.seed}" if case.field.source == "voronoi" else "")

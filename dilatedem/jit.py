@@ -47,7 +47,7 @@ import numba  # noqa: E402  (the cache folder must be known first)
 from numba.extending import overload  # noqa: E402
 
 # OpenMP starts a parallel loop in 2 us, the other layers in 35 us and more; workqueue is the fallback that is always there.
-numba.config.THREADING_LAYER_PRIORITY = ["omp", "workqueue"]
+numba.config.THREADING_LAYER_PRIORITY = ["omp", "workqueue", "tbb"]
 
 prange = numba.prange
 
@@ -109,7 +109,21 @@ def by_team(alone, shared):
     return stage
 
 
-def set_threads(count: int) -> str:
-    """Use `count` threads in parallel loops; returns the name of the threading layer in use."""
+def start_threads(count: int) -> str:
+    """Make `count` threads ready for parallel loops; returns the name of the threading layer, "" for one thread.
+
+    Raises ValueError where the machine (or NUMBA_NUM_THREADS) has fewer.
+    """
+    if count == 1:
+        return ""
+    most = numba.config.NUMBA_NUM_THREADS
+    if count > most:
+        raise ValueError(f"threads = {count}: this machine offers {most}")
     numba.set_num_threads(count)
-    return numba.threading_layer() if count > 1 else "none"
+    return numba.threading_layer()
+
+
+def is_cached(dispatcher) -> bool:
+    """Whether machine code of a kernel lies on disk, for some kind of arguments."""
+    folder = Path(os.environ["NUMBA_CACHE_DIR"])
+    return any(folder.rglob(f"*{dispatcher.py_func.__name__}*.nbi"))

@@ -109,12 +109,12 @@ class _Bar:
     def __init__(self, stream: TextIO, duration_s: float):
         from rich import progress
         from rich.console import Console
+        from rich.table import Column
 
         self._console = Console(file=stream, highlight=False)
         self._progress = progress.Progress(
-            progress.BarColumn(bar_width=24),
-            progress.TaskProgressColumn(),
-            progress.TextColumn("{task.fields[figures]}", markup=False),
+            progress.BarColumn(bar_width=16),
+            progress.TextColumn("{task.fields[figures]}", markup=False, table_column=Column(no_wrap=True)),
             console=self._console,
             auto_refresh=False,
         )

@@ -1,0 +1,248 @@
+"""From a case to bodies in place: explicit bodies, generated floes, structures, packed into the arrays that kernels work on."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from dilatedem.case.schema import WALL_NAMES, Case
+from dilatedem.case.solids import Body, PileStructure, PlaneStructure
+from dilatedem.errors import CaseError
+from dilatedem.field.placement import Disk, FloeField, HalfPlane, Obstacle, Region, equilibrium_height, ice_field
+from dilatedem.field.sizes import floe_count
+from dilatedem.geometry import outline as plan
+from dilatedem.geometry.polyhedron import convex_hull, prism
+from dilatedem.geometry.shapes import BodyShape, pack_hulls, pack_shapes
+from dilatedem.numerics.frames import matrix_from_quaternion, quaternion_from_rotation_vector
+from dilatedem.state.bodies import Bodies, Solids, bodies_at_rest
+from dilatedem.state.model import Model
+from dilatedem.state.setting import ContactModel, ContactSetting, Surroundings
+from dilatedem.state.workspace import MOST_CORNERS
+
+Structure = PileStructure | PlaneStructure
+
+#: half the length of a pile's core, m: "reaching beyond any floe above and below"
+PILE_HALF_LENGTH = 200.0
+#: a load map's heights reach from so many ice thicknesses below the water level to so many above
+MAP_HEIGHTS = (-1.5, 1.0)
+#: corners of a face after clipping by another: both counts together have to fit into the workspace
+MOST_FACE_CORNERS = MOST_CORNERS // 2 - 1
+
+
+@dataclass(frozen=True, eq=False)
+class PlacedBody:
+    """A body at t = 0.
+
+    outline: (k, 2) [m] as seen from above, world coordinates; plan_area [m2]; number: in the case's `[[body]]` list, None for a floe
+    that was generated.
+    """
+
+    shape: BodyShape
+    position: np.ndarray  # (3,) centroid, m
+    orientation: np.ndarray  # (4,) unit quaternion, body to world
+    outline: np.ndarray
+    plan_area: float
+    number: int | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Scene:
+    """All bodies of a case in place, and its structures (those of the case, then the domain's walls)."""
+
+    bodies: list[PlacedBody]
+    structures: list[Structure]
+    field: FloeField
+
+
+def compose(case: Case) -> Scene:
+    """Place every body of a case. Raises CaseError where the field or a body cannot be built."""
+    explicit = [_explicit_body(case, number, body) for number, body in enumerate(case.body)]
+    try:
+        field = _floe_field(case, explicit)
+        floes = [_floe(case, outline, area) for outline, area in zip(field.outlines, field.plan_area, strict=True)]
+    except ValueError as fault:
+        raise CaseError(f"the ice field cannot be built: {fault}") from fault
+    return Scene(explicit + floes, [*case.structure, *_walls(case)], field)
+
+
+def _periodic(case: Case) -> tuple[bool, bool]:
+    return case.domain.x_boundary == "periodic", case.domain.y_boundary == "periodic"
+
+
+def _floe_field(case: Case, explicit: list[PlacedBody]) -> FloeField:
+    """The generated floes of a case, clear of its structures and of its explicit bodies."""
+    if case.field.source == "bodies":
+        return FloeField([], np.zeros(0), 1.0, 0.0, 0)
+    size = case.domain.size
+    count = case.field.floe_count or floe_count(size, case.field.concentration, case.field.floe_size)
+    return ice_field(
+        size,
+        count,
+        case.field.concentration,
+        periodic=_periodic(case),
+        seed=case.field.seed,
+        dilated_radius=case.ice.dilated_radius,
+        obstacles=[*_structure_obstacles(case), *(Region(body.outline) for body in explicit)],
+    )
+
+
+def _structure_obstacles(case: Case) -> list[Obstacle]:
+    obstacles: list[Obstacle] = []
+    for structure in case.structure:
+        if structure.kind == "pile":
+            obstacles.append(Disk(structure.center, structure.radius))
+        elif math.hypot(*structure.normal[:2]) > 0.0:  # a level plane bounds no floe in plan
+            level = math.hypot(*structure.normal[:2])
+            across, slope = np.array(structure.normal[:2]) / level, structure.normal[2] / level
+            # where it stands out farthest towards the ice, over the heights that a floe can take up
+            reach = slope * structure.point[2] + abs(slope) * case.ice.thickness
+            obstacles.append(HalfPlane(tuple(np.array(structure.point[:2]) + across * reach), tuple(across)))
+    return obstacles
+
+
+def _walls(case: Case) -> list[PlaneStructure]:
+    """Rigid planes where a boundary of the domain is a wall, with the default elasticity of a structure."""
+    walls = []
+    for axis, boundary in enumerate((case.domain.x_boundary, case.domain.y_boundary)):
+        if boundary != "wall":
+            continue
+        for side, name in zip((-1.0, 1.0), WALL_NAMES[2 * axis : 2 * axis + 2], strict=True):
+            point, normal = [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]
+            point[axis], normal[axis] = 0.5 * side * case.domain.size[axis], -side
+            walls.append(PlaneStructure(kind="plane", name=name, point=tuple(point), normal=tuple(normal)))
+    return walls
+
+
+def _floe(case: Case, outline: np.ndarray, plan_area: float) -> PlacedBody:
+    """A floe of the case's ice over an outer outline (k, 2) [m]; plan_area [m2] that of the dilated floe."""
+    shape, centroid = _floe_shape(outline, case.ice.thickness, case.ice.dilated_radius)
+    position = np.array([centroid[0], centroid[1], _floating_height(case, shape, case.ice.density)])
+    return PlacedBody(shape, position, quaternion_from_rotation_vector(np.zeros(3)), outline, float(plan_area))
+
+
+def _explicit_body(case: Case, number: int, body: Body) -> PlacedBody:
+    """A [[body]] entry in its place at t = 0. Raises CaseError that names it."""
+    try:
+        if body.outline is not None:
+            shape, centroid = _floe_shape(plan.prepare(body.outline), body.thickness, body.dilated_radius)
+            height = 0.0
+            if case.water.enabled and (body.position is None or len(body.position) == 2):
+                height = _floating_height(case, shape, body.density)
+            position = np.array([*centroid[:2], height])
+        else:
+            shape, centroid = BodyShape.of_core(convex_hull(np.array(body.vertices)), body.dilated_radius)
+            position = np.zeros(3)
+    except ValueError as fault:
+        raise CaseError(f"body.{number}: {fault}") from fault
+    if any(len(face) > MOST_FACE_CORNERS for face in shape.core.faces):
+        raise CaseError(f"body.{number}: a face has too many corners; at most {MOST_FACE_CORNERS} can be handled")
+    if body.position is not None:
+        position[: len(body.position)] = body.position
+    orientation = quaternion_from_rotation_vector(body.rotation)
+    corners = shape.outer.vertices @ matrix_from_quaternion(orientation).T + position
+    seen = convex_hull(corners * [1.0, 1.0, 0.0]).vertices[:, :2]
+    seen = seen if plan.area(seen) > 0.0 else seen[::-1]
+    return PlacedBody(shape, position, orientation, seen, float(plan.area(seen)), number)
+
+
+def _floe_shape(outline: np.ndarray, thickness: float, radius: float) -> tuple[BodyShape, np.ndarray]:
+    half = 0.5 * thickness - radius
+    return BodyShape.of_core(prism(plan.erode(outline, radius), -half, half), radius)
+
+
+def _floating_height(case: Case, shape: BodyShape, density: float) -> float:
+    return equilibrium_height(shape.outer, density, case.water.density) if case.water.enabled else 0.0
+
+
+def build_model(case: Case, scene: Scene) -> Model:
+    """The constant arrays of a run. Raises CaseError for a contact model that does not exist yet."""
+    if case.contact.model != "liu2015":
+        raise CaseError(f'contact.model = "{case.contact.model}": is not available yet; set contact.model = "liu2015"')
+    # convex structures (piles) must come before half spaces, as `pack_shapes` puts those last
+    piles = [s for s in scene.structures if s.kind == "pile"]
+    planes = [s for s in scene.structures if s.kind == "plane"]
+    column = np.array([[0.0, 0.0, -PILE_HALF_LENGTH], [0.0, 0.0, PILE_HALF_LENGTH]])
+    columns = [BodyShape.of_core(convex_hull(column), pile.radius)[0] for pile in piles]
+    shapes = [body.shape for body in scene.bodies]
+    normals = [np.array(plane.normal) / np.linalg.norm(plane.normal) for plane in planes]
+    water, periodic = case.water, _periodic(case)
+    current = water.velocity if water.enabled else (0.0, 0.0)
+    return Model(
+        floating=len(shapes),
+        shapes=pack_shapes(shapes + columns, normals),
+        hulls=pack_hulls(shapes),
+        solids=_solids(case, scene, [*piles, *planes]),
+        contact=ContactSetting(
+            int(ContactModel.LIU2015), case.contact.damping, case.contact.friction, case.contact.stiffness_ratio
+        ),
+        surroundings=Surroundings(
+            case.gravity.acceleration, water.enabled, water.density, *current, water.drag_force_coefficient,
+            water.drag_moment_coefficient, *(size if wraps else 0.0 for size, wraps in zip(case.domain.size, periodic, strict=True)),
+        ),
+    )  # fmt: skip
+
+
+def ordered_structures(scene: Scene) -> list[Structure]:
+    """Structures in the order of their bodies: piles, then planes."""
+    return sorted(scene.structures, key=lambda structure: structure.kind == "plane")
+
+
+def _solids(case: Case, scene: Scene, structures: list[Structure]) -> Solids:
+    """Masses and elasticity; structures are of infinite mass."""
+    count = len(scene.bodies) + len(structures)
+    mass, inverse_mass, compliance = np.zeros(count), np.zeros(count), np.zeros(count)
+    inertia, inverse_inertia = np.zeros((count, 3, 3)), np.zeros((count, 3, 3))
+    for i, placed in enumerate(scene.bodies):
+        given = case.ice if placed.number is None else case.body[placed.number]
+        mass[i] = placed.shape.properties.volume * given.density
+        inertia[i] = placed.shape.properties.inertia * given.density
+        compliance[i] = (1.0 - given.poisson_ratio**2) / given.elastic_modulus
+        if placed.number is None or not case.body[placed.number].fixed:
+            inverse_mass[i] = 1.0 / mass[i]
+            inverse_inertia[i] = np.linalg.inv(inertia[i])
+    for i, structure in enumerate(structures, start=len(scene.bodies)):
+        compliance[i] = (1.0 - structure.poisson_ratio**2) / structure.elastic_modulus
+    return Solids(inverse_mass, mass, inertia, inverse_inertia, compliance)
+
+
+def initial_bodies(case: Case, scene: Scene, model: Model) -> Bodies:
+    """All bodies where and as fast as the case says."""
+    structures = ordered_structures(scene)
+    bodies = bodies_at_rest(len(scene.bodies) + len(structures))
+    ice_velocity = case.ice.initial_velocity
+    if ice_velocity == "current":
+        ice_velocity = (*case.water.velocity, 0.0) if case.water.enabled else (0.0, 0.0, 0.0)
+    for i, placed in enumerate(scene.bodies):
+        bodies.position[i], bodies.orientation[i] = placed.position, placed.orientation
+        if placed.number is None:
+            bodies.velocity[i] = ice_velocity
+            continue
+        given = case.body[placed.number]
+        bodies.velocity[i], bodies.angular_velocity[i] = given.velocity, given.angular_velocity
+        if not given.fixed:
+            turn = matrix_from_quaternion(placed.orientation)
+            bodies.angular_momentum[i] = turn @ model.solids.inertia[i] @ turn.T @ given.angular_velocity
+    for i, structure in enumerate(structures, start=len(scene.bodies)):
+        bodies.position[i] = structure.point if structure.kind == "plane" else (*structure.center, 0.0)
+    bodies.middle_velocity[:] = bodies.velocity
+    bodies.middle_angular_velocity[:] = bodies.angular_velocity
+    bodies.middle_angular_momentum[:] = bodies.angular_momentum
+    return bodies
+
+
+def load_map_geometry(case: Case, scene: Scene) -> tuple[np.ndarray, np.ndarray]:
+    """map_origin (s, 6) and map_span (s, 3) of `state.record.Loads` for the structures in their order [m]."""
+    low, high = (factor * case.ice.thickness for factor in MAP_HEIGHTS)
+    structures = ordered_structures(scene)
+    origin, span = np.zeros((len(structures), 6)), np.zeros((len(structures), 3))
+    for s, structure in enumerate(structures):
+        span[s] = 0.0, low, high
+        if structure.kind == "pile":
+            origin[s, :2] = structure.center
+            continue
+        across = np.cross([0.0, 0.0, 1.0], structure.normal)
+        length = np.linalg.norm(across)
+        origin[s, :3] = structure.point
+        origin[s, 3:] = across / length if length > 0.0 else (1.0, 0.0, 0.0)
+        span[s, 0] = 0.5 * math.hypot(*case.domain.size)
+    return origin, span

@@ -1,0 +1,123 @@
+"""The critical time step: how stiff contacts are against how light the bodies are at the point of contact (physics 6).
+
+Before a run nothing touches yet, so the stiffest contact that each body can have is taken; during a run `assembled_frequency` adds up the
+contacts there are.
+"""
+
+from math import pi, sqrt
+
+import numpy as np
+
+from dilatedem.contact.laws import power
+from dilatedem.contact.liu2015 import BETA
+from dilatedem.jit import device, kernel
+from dilatedem.numerics.rotation import rotation_matrix, to_body
+from dilatedem.numerics.vector import cross, load
+
+#: impact speed, as a share of sqrt(gravity x reach), for which contacts are laid out where nothing moves yet
+SETTLING_SPEED = 0.5
+#: steps over the shortest contact at a point that the *critical* step stands for; the automatic step is a tenth of it
+STEPS_PER_CONTACT = 8.0
+
+
+def critical_step(model, bodies) -> float:
+    """Largest stable time step [s] of the stiffest contact that any body can have.
+
+    A pair's 1/m_eff is the sum over both bodies, so omega^2 = k/m_eff is at most twice the largest k/m' of one body, with
+    1/m' = 1/m + (r x n).I^-1.(r x n) at the worst corner; damping shortens the step by sqrt(1 + xi^2) - xi. Infinite without bodies.
+    """
+    shapes, solids, damping = model.shapes, model.solids, model.contact.damping
+    free = np.flatnonzero(solids.inverse_mass > 0.0)
+    if len(free) == 0:
+        return np.inf
+    structures = solids.compliance[model.floating :]
+    speed = _impact_speed(model, bodies, free)
+    shrink = sqrt(1.0 + damping**2) - damping
+    shortest = np.inf
+    for i in free:
+        mobility = _worst_mobility(shapes, solids, i)
+        # against another body like itself; against a structure, which does not move
+        partners = [(2.0, 2.0 * solids.compliance[i])]
+        partners += [(1.0, solids.compliance[i] + compliance) for compliance in structures]
+        partners += [(1.0, solids.compliance[i] + solids.compliance[j]) for j in _fixed_or_stiffer(solids, i, model.floating)]
+        for bodies_moving, compliance in partners:
+            modulus = 1.0 / compliance
+            mass = 1.0 / (bodies_moving * solids.inverse_mass[i])
+            area = _largest_face(shapes, i)
+            face = 2.0 * modulus * BETA * sqrt(area / pi)
+            if face > 0.0:
+                shortest = min(shortest, 2.0 * shrink / sqrt(bodies_moving * mobility * face))
+            hertz = 4.0 / 3.0 * modulus * sqrt(shapes.radius[i])
+            if hertz > 0.0:
+                depth = (1.25 * mass * speed**2 / hertz) ** 0.4
+                shortest = min(shortest, 2.943 * depth / speed / STEPS_PER_CONTACT)
+    return shortest
+
+
+def _impact_speed(model, bodies, free) -> float:
+    """A speed [m/s] at which bodies may hit each other: the case's own velocities, or what gravity gives them."""
+    surroundings = model.surroundings
+    moving = np.linalg.norm(bodies.velocity[free], axis=1).max()
+    current = np.hypot(surroundings.current_x, surroundings.current_y)
+    settling = SETTLING_SPEED * np.sqrt(surroundings.gravity * model.shapes.reach[free].max())
+    return max(2.0 * moving, current, settling, 1e-6)
+
+
+def _fixed_or_stiffer(solids, i: int, floating: int) -> list[int]:
+    """One representative each: the stiffest fixed body."""
+    fixed = np.flatnonzero(solids.inverse_mass[:floating] == 0.0)
+    return [fixed[np.argmin(solids.compliance[fixed])]] if len(fixed) else []
+
+
+def _worst_mobility(shapes, solids, i: int) -> float:
+    """Largest 1/m' [1/kg] over a body's core vertices and the three axes of its frame."""
+    corners = shapes.vertex[shapes.vertex_start[i] : shapes.vertex_start[i + 1]]
+    most = 0.0
+    for axis in np.eye(3):
+        lever = np.cross(corners, axis)
+        most = max(most, np.einsum("vi,ij,vj->v", lever, solids.inverse_inertia[i], lever).max())
+    return solids.inverse_mass[i] + most
+
+
+def _largest_face(shapes, i: int) -> float:
+    """Area [m2] of the largest face of a core; 0 for spheres and capsules."""
+    largest = 0.0
+    for f in range(shapes.face_start[i], shapes.face_start[i + 1]):
+        corners = shapes.vertex[shapes.loop[shapes.loop_start[f] : shapes.loop_start[f + 1]]]
+        area = 0.5 * np.cross(corners - corners[0], np.roll(corners, -1, axis=0) - corners[0]).sum(axis=0)
+        largest = max(largest, float(np.linalg.norm(area)))
+    return largest
+
+
+@device
+def _mobility(i, solids, orientation, lever, normal):
+    """1/m' [1/kg] of body i at `lever` from its centroid along the unit vector `normal`."""
+    q = orientation
+    arm = to_body(rotation_matrix(q[i, 0], q[i, 1], q[i, 2], q[i, 3]), cross(lever, normal))
+    total = solids.inverse_mass[i]
+    for r in range(3):
+        for c in range(3):
+            total += arm[r] * solids.inverse_inertia[i, r, c] * arm[c]
+    return total
+
+
+@kernel
+def assembled_frequency(model, bodies, pairs, stiffness):
+    """Upper bound of the highest angular frequency [rad/s] of the contacts that are open now.
+
+    stiffness (n,): workspace. A body's contacts add up to s = sum k_tan/m'; no mode is faster than sqrt(2 max s), by Gershgorin.
+    """
+    for i in range(len(stiffness)):
+        stiffness[i] = 0.0
+    for k in range(pairs.count[0]):
+        if pairs.overlap[k] > 0.0:
+            exponent = pairs.exponent[k]
+            tangent = exponent * pairs.stiffness[k] * power(pairs.overlap[k], exponent - 1.0)
+            normal, a, b = load(pairs.normal, k), pairs.a[k], pairs.b[k]
+            both = 2.0 if model.solids.inverse_mass[a] > 0.0 and model.solids.inverse_mass[b] > 0.0 else 1.0
+            stiffness[a] += both * tangent * _mobility(a, model.solids, bodies.orientation, load(pairs.point, k), normal)
+            stiffness[b] += both * tangent * _mobility(b, model.solids, bodies.orientation, load(pairs.arm, k), normal)
+    most = 0.0
+    for i in range(len(stiffness)):
+        most = max(most, stiffness[i])
+    return sqrt(most)

@@ -1,0 +1,292 @@
+"""What a run writes, and when: the observers of `output` wired to one simulation."""
+
+import time
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+from dilatedem import __version__
+from dilatedem.case import write
+from dilatedem.composition import ordered_structures
+from dilatedem.geometry.polyhedron import Polyhedron
+from dilatedem.output import checkpoint, folder
+from dilatedem.output.archive import ContactStatistics, FloeTable, LoadMap, write_run_h5
+from dilatedem.output.atomic import write_text
+from dilatedem.output.schedule import Schedule
+from dilatedem.output.summary import versions, write_summary
+from dilatedem.output.tables import BODIES_COLUMNS, ENERGY_COLUMNS, FORCES_COLUMNS, Table
+from dilatedem.output.vtu import SnapshotWriter, pile_column, plane_plate, wrapped, write_pvd, write_structures
+from dilatedem.state.record import ANGLE_BINS, HEIGHT_BINS
+
+#: energy terms that are stored (their change counts), and those that came in (+) or went out (-)
+STORED = ("kinetic", "gravity", "buoyancy", "elastic")
+FLOWS = {"work_drag": 1.0, "work_structure": 1.0, "gain_law": 1.0, "loss_damping": -1.0, "loss_friction": -1.0}
+
+
+@dataclass
+class Totals:
+    """Figures of a run that live outside the kernels' arrays; JSON-able, part of every checkpoint."""
+
+    initial_energy: float | None = None  # J
+    largest_residual: float = 0.0  # J, over all rows of energy.csv
+    largest_step_ratio: float = 0.0  # dt over the critical step of the open contacts, over all rows of energy.csv
+    wall_s: float = 0.0
+    compile_s: float = 0.0
+    peaks: dict = field(default_factory=dict)  # structure -> headline loads
+    snapshots: list = field(default_factory=list)  # [time, file]
+
+
+class RunOutput:
+    """The run folder of one simulation, kept up to date from step to step."""
+
+    def __init__(self, simulation, out: Path, saved: dict):
+        """Go on writing a run from the checkpoint whose meta is `saved`."""
+        self._prepare(simulation, out)
+        self._tables = {
+            name: Table.reopen(out / name, columns, saved["offsets"][name]) for name, columns in self._columns().items()
+        }
+
+    @classmethod
+    def fresh(cls, simulation, out: Path) -> "RunOutput":
+        """Start a run folder; what an earlier run left there is removed."""
+        self = cls.__new__(cls)
+        self._prepare(simulation, out)
+        _clear(out)
+        (out / "snapshots").mkdir(parents=True, exist_ok=True)
+        case = simulation.case
+        header = f"# dilatedem {__version__}, seed {case.field.seed}\n\n"
+        write_text(out / folder.CASE, header + write.dump(case))
+        write_structures(out / folder.STRUCTURES, [_drawn(s, case) for s in self._structures])
+        self._tables = {name: Table(out / name, columns) for name, columns in self._columns().items()}
+        self._write_summary("running", "")
+        return self
+
+    def _prepare(self, simulation, out: Path) -> None:
+        self._simulation, self._out = simulation, out
+        self._structures = ordered_structures(simulation.scene)
+        self._writer = SnapshotWriter([body.shape.outer for body in simulation.scene.bodies])
+        self._began = time.perf_counter()
+        output, dt = simulation.case.output, simulation.dt
+        self._forces = Schedule(output.force_interval, dt)
+        self._energy = Schedule(output.energy_interval, dt)
+        self._snapshots = Schedule(output.snapshot_interval, dt)
+        self._checkpoints = Schedule(output.checkpoint_interval, dt)
+        count = simulation.model.floating
+        self._tracked = np.arange(count) if output.track == "all" else np.array(output.track, np.int64)
+        self._track = Schedule(output.track_interval if len(self._tracked) else 0.0, dt)
+
+    @staticmethod
+    def _columns() -> dict:
+        return {folder.FORCES: FORCES_COLUMNS, folder.ENERGY: ENERGY_COLUMNS, folder.BODIES: BODIES_COLUMNS}
+
+    @property
+    def totals(self) -> Totals:
+        return self._simulation.state.totals
+
+    def __enter__(self) -> "RunOutput":
+        return self
+
+    def __exit__(self, *exception) -> None:
+        for table in self._tables.values():
+            table.close()
+
+    def next_due(self, step: int) -> int:
+        """The next step at which something is written."""
+        schedules = (self._forces, self._energy, self._snapshots, self._track, self._checkpoints)
+        return min(schedule.next_due(step) for schedule in schedules)
+
+    def observe(self, *, last: bool = False) -> None:
+        """Write what is due at the present step (`last`: the run's last, which closes every window)."""
+        step = int(self._simulation.state.clock.step[0])
+        if step > 0 and (last or self._forces.is_due(step)):
+            self._write_forces()
+        if last or self._energy.is_due(step):
+            self._write_energy()
+        if self._track.is_due(step):
+            self._write_bodies()
+        if self._snapshots.is_due(step):
+            self._write_snapshot()
+        if step > 0 and not last and self._checkpoints.is_due(step):
+            self._save("running")
+
+    def complete(self) -> None:
+        self._save("completed")
+
+    def interrupt(self) -> None:
+        self._save("interrupted", "stopped by the user; --resume goes on")
+
+    def stop(self, message: str) -> None:
+        """The simulation cannot go on: keep the last checkpoint, and the state that failed beside it."""
+        self._flush()
+        checkpoint.save(self._out / "stopped.h5", self._simulation.state.groups(), self._meta())
+        self._write_archive()
+        self._write_summary("stopped", message)
+
+    def _save(self, status: str, message: str = "") -> None:
+        """Everything up to now, in files that a later run can go on from."""
+        self._flush()
+        self._write_archive()
+        totals = self.totals
+        now = time.perf_counter()
+        totals.wall_s += now - self._began
+        self._began = now
+        checkpoint.save(self._out / folder.CHECKPOINT, self._simulation.state.groups(), self._meta())
+        self._write_summary(status, message)
+
+    def _flush(self) -> None:
+        for table in self._tables.values():
+            table.flush(durable=True)
+
+    def _meta(self) -> dict:
+        return {
+            "version": __version__,
+            "dt": self._simulation.dt,
+            "offsets": {name: table.offset for name, table in self._tables.items()},
+            "totals": asdict(self.totals),
+        }
+
+    def _write_forces(self) -> None:
+        loads, time_s = self._simulation.state.loads, self._simulation.time_s
+        steps = int(loads.steps[0])
+        if steps == 0:
+            return
+        rows = []
+        for s, structure in enumerate(self._structures):
+            mean = loads.window_sum[s] / steps
+            extreme = loads.window_extreme[s]
+            rows.append([time_s, structure.name, *mean.tolist(), *extreme.tolist(), loads.contact_sum[s] / steps])
+            self._note_peaks(structure.name, extreme, loads.window_sum[s], steps)
+        self._tables[folder.FORCES].append(rows)
+        loads.steps[0] = 0
+
+    def _note_peaks(self, name: str, extreme: np.ndarray, window_sum: np.ndarray, steps: int) -> None:
+        peak = self.totals.peaks.setdefault(name, {
+            "fx_max_N": 0.0, "fx_min_N": 0.0, "fy_max_N": 0.0, "fy_min_N": 0.0, "fh_max_N": 0.0, "fh_max_time_s": 0.0,
+            "fx_sum": 0.0, "fy_sum": 0.0, "steps": 0,
+        })  # fmt: skip
+        fx_min, fx_max, fy_min, fy_max, fh_max = extreme.tolist()
+        peak["fx_min_N"], peak["fx_max_N"] = min(peak["fx_min_N"], fx_min), max(peak["fx_max_N"], fx_max)
+        peak["fy_min_N"], peak["fy_max_N"] = min(peak["fy_min_N"], fy_min), max(peak["fy_max_N"], fy_max)
+        if fh_max > peak["fh_max_N"]:
+            peak["fh_max_N"], peak["fh_max_time_s"] = fh_max, self._simulation.time_s
+        peak["fx_sum"] += float(window_sum[0])
+        peak["fy_sum"] += float(window_sum[1])
+        peak["steps"] += steps
+
+    def _write_energy(self) -> None:
+        terms, totals = self._simulation.energies(), self.totals
+        total = sum(terms[name] for name in STORED) - sum(sign * terms[name] for name, sign in FLOWS.items())
+        if totals.initial_energy is None:
+            totals.initial_energy = total
+        residual = total - totals.initial_energy
+        totals.largest_residual = max(totals.largest_residual, abs(residual))
+        totals.largest_step_ratio = max(totals.largest_step_ratio, self._simulation.assembled_step_ratio())
+        values = terms | {"time_s": self._simulation.time_s, "residual": residual}
+        self._tables[folder.ENERGY].append([[values[name] for name in ENERGY_COLUMNS]])
+
+    def _write_bodies(self) -> None:
+        bodies, i = self._simulation.state.bodies, self._tracked
+        if len(i):
+            time_s = np.full(len(i), self._simulation.time_s)
+            columns = [time_s, i, bodies.position[i], bodies.orientation[i], bodies.velocity[i], bodies.angular_velocity[i]]
+            self._tables[folder.BODIES].append(np.column_stack(columns))
+
+    def _write_snapshot(self) -> None:
+        simulation, totals = self._simulation, self.totals
+        bodies, count, domain = simulation.state.bodies, simulation.model.floating, simulation.case.domain
+        number = self._snapshots.events_until(int(simulation.state.clock.step[0])) - 1
+        periodic = (domain.x_boundary == "periodic", domain.y_boundary == "periodic")
+        velocity = bodies.velocity[:count]
+        self._writer.write(
+            self._out / folder.snapshot_name(number),
+            wrapped(bodies.position[:count], domain.size, periodic),
+            bodies.orientation[:count],
+            {
+                "body": np.arange(count),
+                "velocity": velocity,
+                "speed": np.linalg.norm(velocity, axis=1),
+                "angular_velocity": bodies.angular_velocity[:count],
+                "contact_force": bodies.contact_force[:count],
+                "contacts": bodies.contact_count[:count],
+            },
+        )
+        totals.snapshots.append([simulation.time_s, folder.snapshot_name(number)])
+        write_pvd(self._out / folder.ICE_COLLECTION, totals.snapshots)
+
+    def _write_archive(self) -> None:
+        simulation = self._simulation
+        loads, scene = simulation.state.loads, simulation.scene
+        maps = []
+        for s, structure in enumerate(self._structures):
+            half, low, high = loads.map_span[s]
+            pile = structure.kind == "pile"
+            edges = np.linspace(-180.0, 180.0, ANGLE_BINS + 1) if pile else np.linspace(-half, half, ANGLE_BINS + 1)
+            maps.append(LoadMap(
+                structure=structure.name, kind=structure.kind, impulse=loads.impulse_map[s], edges=edges,
+                height_edges=np.linspace(low, high, HEIGHT_BINS + 1), duration_s=simulation.time_s,
+                center=structure.center if pile else structure.point, radius=structure.radius if pile else None,
+                axis=None if pile else loads.map_origin[s, 3:],
+            ))  # fmt: skip
+        statistics = {
+            partners: ContactStatistics(loads.mode_steps[p], loads.mode_impulse[p], loads.mode_force[p], loads.mode_overlap[p])
+            for p, partners in enumerate(("ice_ice", "ice_structure"))
+        }
+        placed = scene.bodies
+        count = simulation.model.floating
+        write_run_h5(
+            self._out / folder.RUN_ARCHIVE, maps, statistics,
+            FloeTable(
+                body=np.arange(count), x0=np.array([b.position[0] for b in placed]), y0=np.array([b.position[1] for b in placed]),
+                plan_area=np.array([b.plan_area for b in placed]), mass=simulation.model.solids.mass[:count],
+                volume=np.array([b.shape.properties.volume for b in placed]),
+                vertices=np.array([len(b.shape.core.vertices) for b in placed]), outlines=[b.outline for b in placed],
+            ),
+        )  # fmt: skip
+
+    def _write_summary(self, status: str, message: str) -> None:
+        simulation, totals = self._simulation, self.totals
+        case, step = simulation.case, int(simulation.state.clock.step[0])
+        terms = {f"{name}_J": value for name, value in simulation.energies().items()} if step else {}
+        work = abs(terms.get("work_drag_J", 0.0))
+        write_summary(self._out / folder.SUMMARY, {
+            "status": status, "message": message, "title": case.title, "version": __version__, "versions": versions(),
+            "seed": case.field.seed, "floes": simulation.model.floating, "steps": step, "dt_s": simulation.dt,
+            "dt_critical_s": simulation.critical, "dt_over_critical": simulation.dt / simulation.critical,
+            "dt_over_critical_of_open_contacts": totals.largest_step_ratio, "simulated_s": simulation.time_s,
+            "duration_s": case.time.duration, "wall_s": totals.wall_s, "compile_s": totals.compile_s,
+            "steps_per_s": step / totals.wall_s if totals.wall_s > 0.0 else None, "threads": simulation.threads,
+            "loads": {structure.name: _headline_loads(totals.peaks.get(structure.name)) for structure in self._structures},
+            "energy": terms | {
+                "residual_J": totals.largest_residual, "residual_over_work": totals.largest_residual / work if work else None,
+            },
+            "contact": {
+                "model": case.contact.model, "open": simulation.contacts,
+                "largest_overlap_m": float(simulation.state.loads.mode_overlap.max()),
+            },
+        })  # fmt: skip
+
+
+def _headline_loads(peak: dict | None) -> dict:
+    names = ("fx_max_N", "fx_min_N", "fy_max_N", "fy_min_N", "fh_max_N", "fh_max_time_s")
+    if peak is None:
+        return dict.fromkeys((*names, "fx_mean_N", "fy_mean_N"), 0.0)
+    steps = max(peak["steps"], 1)
+    return {name: peak[name] for name in names} | {"fx_mean_N": peak["fx_sum"] / steps, "fy_mean_N": peak["fy_sum"] / steps}
+
+
+def _drawn(structure, case) -> Polyhedron:
+    """A structure as ParaView sees it."""
+    if structure.kind == "pile":
+        return pile_column(structure.center, structure.radius)
+    return plane_plate(structure.point, structure.normal, 1.2 * float(np.hypot(*case.domain.size)))
+
+
+def _clear(out: Path) -> None:
+    """Remove an earlier run's files from a folder that was given to be overwritten."""
+    names = (folder.CASE, folder.FORCES, folder.ENERGY, folder.BODIES, folder.ICE_COLLECTION, folder.STRUCTURES)
+    for name in (*names, folder.RUN_ARCHIVE, folder.CHECKPOINT, folder.SUMMARY, "stopped.h5", "report.html"):
+        (out / name).unlink(missing_ok=True)
+    for part in ("snapshots", "figures"):
+        for file in (out / part).glob("*"):
+            file.unlink()

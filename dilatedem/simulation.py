@@ -1,0 +1,310 @@
+"""The composition root: a case becomes arrays, arrays are advanced, observers write. No physics of its own."""
+
+import math
+import time
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+from dilatedem import __version__
+from dilatedem.case import write
+from dilatedem.case.schema import Case
+from dilatedem.composition import (
+    Scene,
+    build_model,
+    compose,
+    initial_bodies,
+    load_map_geometry,
+    ordered_structures,
+)
+from dilatedem.errors import CaseError, Interrupted, SimulationStopped
+from dilatedem.interruption import Interruption
+from dilatedem.jit import Alone, Team, is_cached, start_threads
+from dilatedem.motion.energy import instant_energies
+from dilatedem.motion.step import advance, evaluate
+from dilatedem.motion.timestep import assembled_frequency, critical_step
+from dilatedem.output import checkpoint, folder
+from dilatedem.output.progress import Progress
+from dilatedem.output.schedule import Schedule
+from dilatedem.run_output import RunOutput, Totals
+from dilatedem.state.bodies import Bodies
+from dilatedem.state.clock import Clock, Status, clock_at_start
+from dilatedem.state.model import Model
+from dilatedem.state.pairs import Pairs, empty_pairs, grown
+from dilatedem.state.record import Ledger, Loads, empty_ledger, empty_loads
+from dilatedem.state.workspace import Cells, Workspace, make_cells, make_workspace
+
+#: steps between two looks at the keyboard and the progress bar, where no output is due earlier
+LONGEST_CHUNK = 2000
+#: room for pairs at the start, per body; it grows where it is not enough
+PAIRS_PER_BODY = 8
+
+
+@dataclass
+class State:
+    """Everything that varies; a checkpoint holds all of it."""
+
+    bodies: Bodies
+    pairs: Pairs
+    ledger: Ledger
+    loads: Loads
+    clock: Clock
+    totals: Totals
+
+    def groups(self) -> dict:
+        return {name: getattr(self, name) for name in ("bodies", "pairs", "ledger", "loads", "clock")}
+
+
+@dataclass
+class Simulation:
+    """One case, ready to be advanced; the compiled kernels see only its arrays."""
+
+    case: Case
+    scene: Scene
+    model: Model
+    state: State
+    dt: float
+    critical: float
+    threads: int = 1
+    spare: Pairs = field(init=False)
+    cells: Cells = field(init=False)
+    workspace: Workspace = field(init=False)
+
+    def __post_init__(self):
+        self.cells = make_cells(self.model.floating)
+        self._make_room()
+
+    @classmethod
+    def of_case(cls, case: Case, *, threads: int = 1) -> "Simulation":
+        """A case at t = 0, its loads not evaluated yet. Raises CaseError for what only building it can tell."""
+        scene = compose(case)
+        if not scene.bodies:
+            raise CaseError("the case has no bodies: no floe is clear of the structures, and there is no [[body]]")
+        beyond = [n for n in (case.output.track if case.output.track != "all" else []) if n >= len(scene.bodies)]
+        if beyond:
+            raise CaseError(f"output.track: there is no body {beyond[0]}; they are numbered from 0 to {len(scene.bodies) - 1}")
+        model = build_model(case, scene)
+        bodies = initial_bodies(case, scene, model)
+        critical = critical_step(model, bodies)
+        state = State(
+            bodies, empty_pairs(PAIRS_PER_BODY * len(scene.bodies) + 64), empty_ledger(),
+            empty_loads(*load_map_geometry(case, scene)), clock_at_start(), Totals(),
+        )  # fmt: skip
+        return cls(case, scene, model, state, time_step(case, critical), critical, threads)
+
+    @property
+    def time_s(self) -> float:
+        return int(self.state.clock.step[0]) * self.dt
+
+    @property
+    def contacts(self) -> int:
+        pairs = self.state.pairs
+        return int(np.count_nonzero(pairs.overlap[: pairs.count[0]] > 0.0))
+
+    def evaluate(self) -> Status:
+        """Loads at t = 0, before the first step."""
+        return self._call(evaluate)
+
+    def advance(self, steps: int) -> Status:
+        """Up to `steps` steps; fewer where something is wrong (see `state.clock`)."""
+        goal = int(self.state.clock.step[0]) + steps
+        while True:
+            status = self._call(advance, self.dt, goal - int(self.state.clock.step[0]))
+            if status != Status.PAIRS_FULL:
+                return status
+            self.state.pairs = grown(self.state.pairs, 2 * len(self.state.pairs.a))
+            self._make_room()
+
+    def energies(self) -> dict[str, float]:
+        """The ledger of this instant, in J, as the columns of energy.csv (without time and residual)."""
+        kinetic, weight, buoyancy, elastic = instant_energies(self.model, self.state.bodies, self.state.pairs, self.workspace)
+        return {
+            "kinetic": kinetic,
+            "gravity": weight,
+            "buoyancy": buoyancy,
+            "elastic": elastic,
+            "work_drag": float(self.state.bodies.work_drag.sum()),
+            "work_structure": 0.0,  # structures do not move
+            "loss_damping": float(self.state.ledger.loss_damping[0]),
+            "loss_friction": float(self.state.ledger.loss_friction[0]),
+            "gain_law": float(self.state.ledger.gain_law[0]),
+        }
+
+    def assembled_step_ratio(self) -> float:
+        """dt over the critical step of the contacts that are open now (an upper bound)."""
+        state, damping = self.state, self.model.contact.damping
+        frequency = assembled_frequency(self.model, state.bodies, state.pairs, np.zeros(len(state.bodies.path)))
+        return self.dt * frequency / (2.0 * (math.sqrt(1.0 + damping**2) - damping))
+
+    def _call(self, kernel, *more) -> Status:
+        team = Alone() if self.threads == 1 else Team(self.threads)
+        state = self.state
+        return Status(kernel(
+            team, self.model, state.bodies, state.pairs, self.spare, self.cells, self.workspace, state.ledger, state.loads,
+            state.clock, *more,
+        ))  # fmt: skip
+
+    def _make_room(self) -> None:
+        capacity = len(self.state.pairs.a)
+        self.spare = empty_pairs(capacity)
+        self.workspace = make_workspace(self.model.shapes, self.model.hulls, capacity, self.threads)
+
+
+def time_step(case: Case, critical: float) -> float:
+    """The step [s]: the case's own, or a share of the critical one that divides the force window.
+
+    Raises CaseError for a step above the critical one.
+    """
+    if case.time.step != "auto":
+        if case.time.step > critical:
+            raise CaseError(
+                f"time.step = {case.time.step:g}: must be at most the critical step of the stiffest contact, {critical:.3g} s; "
+                f'set time.step = "auto" for {case.time.step_fraction:g} of it'
+            )
+        return case.time.step
+    longest = min(case.time.step_fraction * critical, case.output.force_interval, case.time.duration)
+    return case.output.force_interval / math.ceil(case.output.force_interval / longest - 1e-9)
+
+
+def total_steps(case: Case, dt: float) -> int:
+    return math.ceil(case.time.duration / dt - 1e-9)
+
+
+def check(case: Case) -> dict:
+    """What follows from a case: floes, mass, time step, steps, expected size of the output."""
+    simulation = Simulation.of_case(case)
+    steps, output = total_steps(case, simulation.dt), case.output
+    solids, floating = simulation.model.solids, simulation.model.floating
+    floes = [body for body in simulation.scene.bodies if body.number is None]
+    areas = np.array([body.plan_area for body in floes])
+    rows = case.time.duration / output.force_interval * len(simulation.scene.structures)
+    tracked = floating if output.track == "all" else len(output.track)
+    snapshots = case.time.duration / output.snapshot_interval + 1 if output.snapshot_interval else 0
+    size = 150 * rows + 130 * tracked * case.time.duration / output.track_interval + snapshots * (3e3 + 350 * floating)
+    facts = {
+        "floes": len(floes),
+        "explicit bodies": len(simulation.scene.bodies) - len(floes),
+        "floes left out at structures": simulation.scene.field.left_out,
+        "structures": len(simulation.scene.structures),
+        "mass, t": solids.mass[:floating].sum() / 1e3,
+        "critical step, s": simulation.critical,
+        "step, s": simulation.dt,
+        "step / critical step": simulation.dt / simulation.critical,
+        "steps": steps,
+        "output, MB, about": size / 1e6,
+    }
+    if len(areas):
+        facts |= {"concentration": simulation.scene.field.concentration, "floe size, m": float(np.sqrt(areas.mean()))}
+    return facts
+
+
+def compile_kernels(threads: int = 1) -> None:
+    """Compile what a run needs, or load it from the cache."""
+    case = Case.model_validate({"field": {"source": "bodies"}, "body": [{"vertices": [[0.0, 0.0, 0.0]], "dilated_radius": 0.1}]})
+    simulation = Simulation.of_case(case, threads=threads)
+    simulation.evaluate()
+    simulation.advance(1)
+    simulation.energies()
+    simulation.assembled_step_ratio()
+
+
+def run(
+    case: Case, out: Path, *, threads: int = 1, resume: bool = False, overwrite: bool = False, quiet: bool = False
+) -> Path:
+    """Simulate a case into the run folder `out`; returns it.
+
+    Raises CaseError (nothing written), SimulationStopped or Interrupted (state saved).
+    """
+    out = Path(out)
+    if folder.holds_run(out) and not (resume or overwrite):
+        raise CaseError(f"{out}: holds a run already; continue it with --resume, replace it with --overwrite, or choose --out")
+    if resume and not folder.holds_run(out):
+        raise CaseError(f"{out}: holds no run to resume; leave --resume away to start one")
+    try:
+        layer = start_threads(threads)
+    except ValueError as fault:
+        raise CaseError(f"--{fault}") from fault
+    simulation = Simulation.of_case(case, threads=threads)
+    saved = _load_checkpoint(out, case, simulation) if resume else None
+    steps = total_steps(case, simulation.dt)
+    output = RunOutput(simulation, out, saved) if saved else RunOutput.fresh(simulation, out)
+    with Interruption() as interruption, Progress(case.time.duration, quiet) as progress, output:
+        started = time.perf_counter()
+        progress.message(_headline(simulation, steps, layer))
+        if not is_cached(advance):
+            progress.message("compiling, once (about half a minute)")
+        compile_kernels(threads)
+        output.totals.compile_s = time.perf_counter() - started
+        if not saved:
+            status = simulation.evaluate()
+            if status == Status.PAIRS_FULL:
+                raise AssertionError("the first list of pairs has no room")
+            output.observe()
+        _loop(simulation, output, steps, progress, interruption)
+    return out
+
+
+def _loop(simulation: Simulation, output: "RunOutput", steps: int, progress: Progress, interruption: Interruption) -> None:
+    """Advance from one due output to the next until the end, an interruption or a fault."""
+    clock = simulation.state.clock
+    progress.update(simulation.time_s, int(clock.step[0]), simulation.contacts)
+    while clock.step[0] < steps:
+        now = int(clock.step[0])
+        status = simulation.advance(min(output.next_due(now), steps, now + LONGEST_CHUNK) - now)
+        if status != Status.DONE:
+            sentence = _fault(simulation, status)
+            output.stop(sentence)
+            raise SimulationStopped(sentence)
+        output.observe(last=clock.step[0] == steps)
+        progress.update(simulation.time_s, int(clock.step[0]), simulation.contacts)
+        if interruption.asked and clock.step[0] < steps:
+            output.interrupt()
+            raise Interrupted(f"interrupted at t = {simulation.time_s:.4f} s; the state is saved, --resume goes on from it")
+    output.complete()
+
+
+def _load_checkpoint(out: Path, case: Case, simulation: Simulation) -> dict:
+    """Restore the saved state into `simulation`; returns the checkpoint's meta."""
+    kept = out / folder.CASE
+    text = kept.read_text(encoding="utf-8") if kept.exists() else ""
+    if text.partition("\n\n")[2] != write.dump(case):
+        raise CaseError(f"{kept}: is not the case given; resume with the case that the run was started with")
+    groups, meta = checkpoint.load(out / folder.CHECKPOINT)
+    if meta["version"] != __version__ or meta["dt"] != simulation.dt:
+        raise CaseError(f"{out / folder.CHECKPOINT}: was written by dilatedem {meta['version']}; resume with that version")
+    state = simulation.state
+    for name, current in state.groups().items():
+        setattr(state, name, checkpoint.restore(type(current), groups[name], where=str(out / folder.CHECKPOINT)))
+    state.totals = Totals(**meta["totals"])
+    simulation._make_room()
+    return meta
+
+
+def _headline(simulation: Simulation, steps: int, layer: str) -> str:
+    ratio = simulation.dt / simulation.critical
+    return (
+        f"{len(simulation.scene.bodies)} bodies, {steps} steps of {simulation.dt:.3g} s = {ratio:.3g} of the critical step "
+        f"({simulation.critical:.3g} s); {f'{simulation.threads} threads ({layer})' if layer else '1 thread'}"
+    )
+
+
+def _fault(simulation: Simulation, status: Status) -> str:
+    """One sentence: which bodies, when, why, what to do."""
+    clock = simulation.state.clock
+    names = [_body_name(simulation, int(i)) for i in clock.culprit if i >= 0]
+    measure = float(clock.measure[0])
+    if status == Status.TOO_DEEP:
+        cause = f"{names[0]} and {names[1]} overlap by {measure:.3g} m, more than their rounded edges can mean"
+    else:
+        moved = f"{measure:.3g} m" if math.isfinite(measure) else "without bound"
+        cause = f"{names[0]} moved {moved} in one step"
+    return f"stopped at t = {simulation.time_s:.6g} s: {cause}; the state is saved; try a smaller time.step or check the case"
+
+
+def _body_name(simulation: Simulation, body: int) -> str:
+    floating = simulation.model.floating
+    if body >= floating:
+        return f'structure "{ordered_structures(simulation.scene)[body - floating].name}"'
+    x, y = simulation.state.bodies.position[body, :2]
+    return f"body {body} at ({x:.2f}, {y:.2f})"
