@@ -66,14 +66,13 @@ def _law_gain(pairs, k, dt, mode, overlap, stiffness, exponent, elastic, elastic
     of the distance would show in the ledger's residual.
     """
     old, old_stiffness, old_exponent = pairs.overlap[k], pairs.stiffness[k], pairs.exponent[k]
-    patch, old_patch = mode >= EDGE_PARALLEL, pairs.mode[k] >= EDGE_PARALLEL
     paid = 0.5 * dt * (elastic_power + pairs.elastic_power[k])
-    if patch != old_patch:
-        # corner and patch measure the overlap at different places
+    if mode != pairs.mode[k]:
+        # each mode measures the overlap at a place of its own
         return stored_energy(stiffness, exponent, overlap) - stored_energy(old_stiffness, old_exponent, old) - paid
     middle = 0.5 * (overlap + old)
     gain = stored_energy(stiffness, exponent, middle) - stored_energy(old_stiffness, old_exponent, middle)
-    if patch:
+    if mode >= EDGE_PARALLEL:  # a patch
         gain += 0.5 * (elastic + old_stiffness * power(old, old_exponent)) * (overlap - old) - paid
     return gain
 

@@ -6,6 +6,8 @@ import math
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.colors import LogNorm
+from matplotlib.ticker import MaxNLocator
 
 from dilatedem.post.canvas import BLACK, BLUE, SKY, VERMILION, Drawing, file_name, new_figure, styled
 from dilatedem.post.labels import number
@@ -14,6 +16,7 @@ from dilatedem.post.read import LoadMap, Table
 
 # Windows are joined to about so many columns: more than a page resolves, few enough for an SVG.
 COLUMNS_DRAWN = 1600
+PRESSURE_RANGE = 1e3  # highest over lowest pressure of the load map's colours
 PEAK_VIEW = 0.5  # s shown to either side of the highest peak
 
 
@@ -124,15 +127,15 @@ def load_around_figure(load_map: LoadMap, upstream: float | None) -> Drawing:
     edges = np.radians(load_map.place_edges)
     figure = new_figure(5.4, 5.4)
     axes = figure.add_subplot(projection="polar")
-    top = float(load.max(initial=0.0)) or 1.0
+    rings = MaxNLocator(4, steps=[1, 2, 2.5, 5, 10]).tick_values(0.0, float(load.max(initial=0.0)) or 1.0)
     sector = {"align": "edge", "color": BLUE, "edgecolor": "white", "linewidth": 0.4}
     axes.bar(edges[:-1], load, width=np.diff(edges), zorder=3, **sector)
-    axes.set_ylim(0.0, 1.08 * top)
+    axes.set_ylim(0.0, 1.1 * rings[-1])
     rays = range(0, 360, 30)
     axes.set_thetagrids(rays, labels=[f"{number(ray - 360 if ray > 180 else ray)}°" for ray in rays])
     axes.tick_params(axis="x", pad=2)
     axes.set_rlabel_position(67.5)
-    axes.yaxis.get_major_locator().base.set_params(nbins=4)
+    axes.set_rticks(rings[1:])
     for label in axes.get_yticklabels():
         label.set_bbox({"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 0.6})
     axes.set_axisbelow(True)
@@ -190,9 +193,11 @@ def load_map_figure(load_map: LoadMap, upstream: float | None) -> Drawing | None
         edges, pressure = seen_from(upstream, edges, pressure)
     figure = new_figure(7.2, 2.9)
     axes = figure.add_subplot()
-    shown = np.ma.masked_less_equal(pressure.T, 0.0)
-    mesh = axes.pcolormesh(edges, load_map.height_edges, shown, cmap="viridis_r", rasterized=True)
-    bar = figure.colorbar(mesh, ax=axes, pad=0.015)
+    # One floe that leans on the pile for a minute outweighs all passing hits: their traces need a log scale.
+    shown, top = np.ma.masked_less_equal(pressure.T, 0.0), float(pressure.max())
+    scale = {"cmap": "viridis_r", "norm": LogNorm(top / PRESSURE_RANGE, top), "rasterized": True}
+    mesh = axes.pcolormesh(edges, load_map.height_edges, shown, **scale)
+    bar = figure.colorbar(mesh, ax=axes, pad=0.015, extend="min")
     bar.set_label("Mean pressure (kPa)")
     rows = np.flatnonzero(load_map.impulse.any(axis=0))
     low, high = load_map.height_edges[rows[0]], load_map.height_edges[rows[-1] + 1]
@@ -207,7 +212,7 @@ def load_map_figure(load_map: LoadMap, upstream: float | None) -> Drawing | None
     else:
         axes.set_xlabel("Distance along the plane (m)")
     caption = (
-        f"Where the ice pressed on {load_map.structure}: mean normal pressure (kPa) over "
+        f"Where the ice pressed on {load_map.structure}: mean normal pressure (kPa, log scale) over "
         f"{number(load_map.duration)} s on the developed surface; white: never touched; dashed: still water."
     )
     name = f"load_map_{file_name(load_map.structure)}"

@@ -36,8 +36,10 @@ KEYS: dict[str, tuple[str, str]] = {
     "contact.stiffness_ratio": ("stiffness ratio", ""),
     "time.duration": ("duration", "s"),
     "time.step": ("time step", "s"),
+    "time.step_fraction": ("time step over the critical one", ""),
     "output.snapshot_interval": ("snapshot interval", "s"),
     "output.force_interval": ("force interval", "s"),
+    "output.energy_interval": ("energy interval", "s"),
     "output.track_interval": ("track interval", "s"),
     "output.checkpoint_interval": ("checkpoint interval", "s"),
 }
@@ -89,8 +91,10 @@ def show(value: Any) -> str:
     """A value of a case as a reader wants it."""
     if isinstance(value, bool):
         return "yes" if value else "no"
-    if isinstance(value, int | float):
-        return number(float(value), 6)
+    if isinstance(value, int):
+        return f"{value:,}".replace(",", "\N{THIN SPACE}").replace("-", "\N{MINUS SIGN}")
+    if isinstance(value, float):
+        return number(value, 6)
     if isinstance(value, list | tuple):
         return ", ".join(show(entry) for entry in value) if value else "none"
     return "–" if value is None else str(value)

@@ -114,7 +114,11 @@ def load_rows(statistics: dict[str, Any]) -> Rows:
     if peaks["count"]:
         share = number(100.0 * peaks["threshold_share_of_highest"])
         rows += [
-            [f"separate peaks above {share} % of the highest", str(peaks["count"]), ""],
+            [
+                f"separate peaks above {kilo(peaks['threshold_N'])} kN, {share} % of the highest",
+                str(peaks["count"]),
+                "",
+            ],
             ["mean duration of these peaks", number(1e3 * peaks["mean_duration_s"], 3), "ms"],
             ["longest of them", number(1e3 * peaks["longest_duration_s"], 3), "ms"],
         ]
@@ -169,7 +173,7 @@ def contact_table(run: RunFolder) -> list[dict[str, Any]]:
         rows = [
             [
                 mode,
-                number(float(steps[i]), 6),
+                show(int(steps[i])),
                 number(100.0 * float(steps[i]) / total, 3) if total else "–",
                 kilo(float(columns["impulse_Ns"][i])),
                 kilo(float(columns["max_force_N"][i])),
@@ -208,7 +212,10 @@ def case_rows(case: dict[str, Any]) -> Rows:
     shown = dict(case)
     if len(bodies) > BODIES_LISTED:
         shown["body"] = f"{len(bodies)} explicit bodies, see case.toml"
-    return [[key, show(value), describe_key(key)[1]] for key, value in flatten(shown).items()]
+    units = {
+        key: "" if isinstance(value, str) else describe_key(key)[1] for key, value in flatten(shown).items()
+    }
+    return [[key, show(value), units[key]] for key, value in flatten(shown).items()]
 
 
 def version_rows(summary: dict[str, Any]) -> Rows:
