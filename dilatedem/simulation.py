@@ -22,7 +22,7 @@ from dilatedem.errors import CaseError, Interrupted, SimulationStopped
 from dilatedem.interruption import Interruption
 from dilatedem.jit import Alone, Team, is_cached, start_threads
 from dilatedem.motion.energy import instant_energies
-from dilatedem.motion.step import advance, evaluate
+from dilatedem.motion.step import advance
 from dilatedem.motion.timestep import assembled_frequency, critical_step
 from dilatedem.output import checkpoint, folder
 from dilatedem.output.progress import Progress
@@ -103,14 +103,17 @@ class Simulation:
         return int(np.count_nonzero(pairs.overlap[: pairs.count[0]] > 0.0))
 
     def evaluate(self) -> Status:
-        """Loads at t = 0, before the first step."""
-        return self._call(evaluate)
+        """Loads at t = 0, before the first step: a step of no length, not counted."""
+        status = self.advance(1, dt=0.0)
+        self.state.clock.step[0] = 0
+        self.state.loads.steps[0] = 0
+        return status
 
-    def advance(self, steps: int) -> Status:
+    def advance(self, steps: int, *, dt: float | None = None) -> Status:
         """Up to `steps` steps; fewer where something is wrong (see `state.clock`)."""
         goal = int(self.state.clock.step[0]) + steps
         while True:
-            status = self._call(advance, self.dt, goal - int(self.state.clock.step[0]))
+            status = self._call(advance, self.dt if dt is None else dt, goal - int(self.state.clock.step[0]))
             if status != Status.PAIRS_FULL:
                 return status
             self.state.pairs = grown(self.state.pairs, 2 * len(self.state.pairs.a))
@@ -237,31 +240,33 @@ def run(
         compile_kernels(threads)
         output.totals.compile_s = time.perf_counter() - started
         if not saved:
-            status = simulation.evaluate()
-            if status == Status.PAIRS_FULL:
-                raise AssertionError("the first list of pairs has no room")
+            _stop_on_fault(simulation, output, simulation.evaluate())
             output.observe()
         _loop(simulation, output, steps, progress, interruption)
     return out
 
 
-def _loop(simulation: Simulation, output: "RunOutput", steps: int, progress: Progress, interruption: Interruption) -> None:
+def _loop(simulation: Simulation, output: RunOutput, steps: int, progress: Progress, interruption: Interruption) -> None:
     """Advance from one due output to the next until the end, an interruption or a fault."""
     clock = simulation.state.clock
     progress.update(simulation.time_s, int(clock.step[0]), simulation.contacts)
     while clock.step[0] < steps:
         now = int(clock.step[0])
         status = simulation.advance(min(output.next_due(now), steps, now + LONGEST_CHUNK) - now)
-        if status != Status.DONE:
-            sentence = _fault(simulation, status)
-            output.stop(sentence)
-            raise SimulationStopped(sentence)
+        _stop_on_fault(simulation, output, status)
         output.observe(last=clock.step[0] == steps)
         progress.update(simulation.time_s, int(clock.step[0]), simulation.contacts)
         if interruption.asked and clock.step[0] < steps:
             output.interrupt()
             raise Interrupted(f"interrupted at t = {simulation.time_s:.4f} s; the state is saved, --resume goes on from it")
     output.complete()
+
+
+def _stop_on_fault(simulation: Simulation, output: RunOutput, status: Status) -> None:
+    if status != Status.DONE:
+        sentence = _fault(simulation, status)
+        output.stop(sentence)
+        raise SimulationStopped(sentence)
 
 
 def _load_checkpoint(out: Path, case: Case, simulation: Simulation) -> dict:

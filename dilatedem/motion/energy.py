@@ -25,7 +25,7 @@ def instant_energies(model, bodies, pairs, workspace):
         z = bodies.position[i, 2]
         weight += solids.mass[i] * surroundings.gravity * z
         if surroundings.water:
-            submerge_tilted(i, model, bodies, workspace, 0)
+            submerge_tilted(i, model.hulls, bodies, workspace, 0)
             up = rotation_matrix(q[i, 0], q[i, 1], q[i, 2], q[i, 3])[2]
             volume, cx, cy, cz = wet[i, 0], wet[i, 1], wet[i, 2], wet[i, 3]
             height = z + up[0] * cx + up[1] * cy + up[2] * cz

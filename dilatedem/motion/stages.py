@@ -50,61 +50,73 @@ def longest_path(bodies):
 
 
 @device
-def collide_block(block, blocks, count, dt, model, bodies, pairs, workspace):
-    """Evaluate one of `blocks` equal parts of the awake pairs, in its own clipping workspace."""
+def _collide_block(block, blocks, count, dt, shapes, solids, contact, surroundings, bodies, pairs, workspace):
+    """Evaluate one of `blocks` equal parts of the awake pairs, in a clipping workspace of its own."""
     for w in range(count * block // blocks, count * (block + 1) // blocks):
         collide(
-            workspace.awake[w], dt, model.shapes, workspace.vertex, workspace.face_normal, model.solids, bodies, pairs,
-            model.contact, model.surroundings, workspace.clip[block],
+            workspace.awake[w], dt, shapes, workspace.vertex, workspace.face_normal, solids, bodies, pairs, contact, surroundings,
+            workspace.clip[block],
         )  # fmt: skip
 
 
 @device
-def _collide_alone(team, count, dt, model, bodies, pairs, workspace):
-    collide_block(0, 1, count, dt, model, bodies, pairs, workspace)
+def _collide_alone(team, count, dt, shapes, solids, contact, surroundings, bodies, pairs, workspace):
+    _collide_block(0, 1, count, dt, shapes, solids, contact, surroundings, bodies, pairs, workspace)
 
 
 @shared_loop
-def _collide_shared(team, count, dt, model, bodies, pairs, workspace):
-    for block in prange(team.threads):
-        collide_block(block, team.threads, count, dt, model, bodies, pairs, workspace)
+def _collide_shared(team, count, dt, shapes, solids, contact, surroundings, bodies, pairs, workspace):
+    blocks = team.threads
+    for block in prange(blocks):
+        _collide_block(block, blocks, count, dt, shapes, solids, contact, surroundings, bodies, pairs, workspace)
 
 
-#: (team, count, dt, model, bodies, pairs, workspace): evaluate the awake pairs
-collide_pairs = by_team(_collide_alone, _collide_shared)
+_collide_all = by_team(_collide_alone, _collide_shared)
 
 
-@item
-def load_and_kick_block(block, blocks, dt, model, bodies, workspace):
+@device
+def collide_pairs(team, count, dt, model, bodies, pairs, workspace):
+    """Evaluate the awake pairs, `count` of them."""
+    # unpacked here: a parallel loop takes NamedTuples only as arguments, and none inside another
+    _collide_all(team, count, dt, model.shapes, model.solids, model.contact, model.surroundings, bodies, pairs, workspace)
+
+
+@device
+def _load_and_kick_block(block, blocks, floating, dt, hulls, solids, surroundings, bodies, workspace):
     """All loads on one of `blocks` equal parts of the bodies, and the second half of their kick; dt = 0 only evaluates the loads."""
-    first, last = model.floating * block // blocks, model.floating * (block + 1) // blocks
-    wet = workspace.wet
-    if model.surroundings.water:
-        submerge(first, last, model, bodies, workspace, block)
+    first, last = floating * block // blocks, floating * (block + 1) // blocks
+    if surroundings.water:
+        submerge(first, last, hulls, bodies, workspace, block)
     for i in range(first, last):
-        force, torque, power = body_loads(i, model, bodies, wet)
+        force, torque, power = body_loads(i, hulls, solids, surroundings, bodies, workspace.wet)
         for m in range(3):
             bodies.force[i, m] = force[m] + bodies.contact_force[i, m]
             bodies.torque[i, m] = torque[m] + bodies.contact_torque[i, m]
         bodies.work_drag[i] += 0.5 * dt * (power + bodies.drag_power[i])
         bodies.drag_power[i] = power
-        if dt > 0.0 and model.solids.inverse_mass[i] > 0.0:
-            kick(i, dt, model.solids, bodies)
+        if dt > 0.0 and solids.inverse_mass[i] > 0.0:
+            kick(i, dt, solids, bodies)
 
 
 @device
-def _load_and_kick_alone(team, dt, model, bodies, workspace):
-    load_and_kick_block(0, 1, dt, model, bodies, workspace)
+def _load_and_kick_alone(team, floating, dt, hulls, solids, surroundings, bodies, workspace):
+    _load_and_kick_block(0, 1, floating, dt, hulls, solids, surroundings, bodies, workspace)
 
 
 @shared_loop
-def _load_and_kick_shared(team, dt, model, bodies, workspace):
-    for block in prange(team.threads):
-        load_and_kick_block(block, team.threads, dt, model, bodies, workspace)
+def _load_and_kick_shared(team, floating, dt, hulls, solids, surroundings, bodies, workspace):
+    blocks = team.threads
+    for block in prange(blocks):
+        _load_and_kick_block(block, blocks, floating, dt, hulls, solids, surroundings, bodies, workspace)
 
 
-#: (team, dt, model, bodies, workspace): loads on all bodies and the end of their kick
-load_and_kick = by_team(_load_and_kick_alone, _load_and_kick_shared)
+_load_and_kick_all = by_team(_load_and_kick_alone, _load_and_kick_shared)
+
+
+@device
+def load_and_kick(team, dt, model, bodies, workspace):
+    """All loads on all bodies and the end of their kick."""
+    _load_and_kick_all(team, model.floating, dt, model.hulls, model.solids, model.surroundings, bodies, workspace)
 
 
 @device

@@ -3,7 +3,7 @@
 from dilatedem.contact.gather import gather_contacts, record_loads
 from dilatedem.contact.neighbours import awake_pairs, find_pairs
 from dilatedem.contact.turning import turn_awake
-from dilatedem.jit import device, kernel
+from dilatedem.jit import kernel
 from dilatedem.motion.stages import collide_pairs, drift_bodies, load_and_kick, longest_path, too_deep
 from dilatedem.state.clock import Status
 
@@ -15,7 +15,7 @@ def advance(team, model, bodies, pairs, spare, cells, workspace, ledger, loads, 
     """Advance all bodies by up to `steps` steps of dt [s]; returns a `Status`, its culprit in `clock`.
 
     team: `jit.Alone` or `jit.Team`. The method of Liu, Long & Ji (2015): move, meet, float. Bodies hold positions, velocities and
-    loads of one instant, before and after (`evaluate` gives the first loads).
+    loads of one instant, before and after; a step of dt = 0 moves nothing and only evaluates the loads, as a run needs at its start.
     """
     for _ in range(steps):
         if longest_path(bodies) >= pairs.limit[0] and not find_pairs(model, bodies, pairs, spare, cells):
@@ -23,28 +23,13 @@ def advance(team, model, bodies, pairs, spare, cells, workspace, ledger, loads, 
         if not drift_bodies(dt, model, bodies, pairs, clock):
             return clock.status[0]
         clock.step[0] += 1
-        meet_and_float(team, model, bodies, pairs, workspace, ledger, loads, clock, dt)
+        awake = awake_pairs(bodies, pairs, workspace.awake)
+        turn_awake(clock.step[0], awake, model.shapes, bodies, pairs, workspace)
+        collide_pairs(team, awake, dt, model, bodies, pairs, workspace)
+        gather_contacts(workspace.awake, awake, dt, model.floating, bodies, pairs, ledger, loads)
+        load_and_kick(team, dt, model, bodies, workspace)
+        too_deep(awake, model.shapes, pairs, workspace, clock)
         record_loads(loads)
         if clock.status[0] != DONE:
             return clock.status[0]
     return DONE
-
-
-@device
-def meet_and_float(team, model, bodies, pairs, workspace, ledger, loads, clock, dt):
-    """Contacts, then water, at the positions of this instant; with dt > 0 the velocities are completed, too."""
-    awake = awake_pairs(bodies, pairs, workspace.awake)
-    turn_awake(clock.step[0], awake, model.shapes, bodies, pairs, workspace)
-    collide_pairs(team, awake, dt, model, bodies, pairs, workspace)
-    gather_contacts(workspace.awake, awake, dt, model.floating, bodies, pairs, ledger, loads)
-    load_and_kick(team, dt, model, bodies, workspace)
-    too_deep(awake, model.shapes, pairs, workspace, clock)
-
-
-@kernel
-def evaluate(team, model, bodies, pairs, spare, cells, workspace, ledger, loads, clock):
-    """Pairs and loads of a state that has none yet: the start of a run. Returns a `Status`."""
-    if not find_pairs(model, bodies, pairs, spare, cells):
-        return PAIRS_FULL
-    meet_and_float(team, model, bodies, pairs, workspace, ledger, loads, clock, 0.0)
-    return clock.status[0]

@@ -98,9 +98,7 @@ def speed_figure(run: RunFolder, snapshots: list[Snapshot]) -> Drawing:
     return Drawing("speed", "Speed of the floes", caption, figure)
 
 
-def draw_scene(
-    axes: Axes, run: RunFolder, outlines: list[np.ndarray], view: View, *, fixed: np.ndarray
-) -> None:
+def draw_scene(axes: Axes, run: RunFolder, outlines: list[np.ndarray], view: View, *, fixed: np.ndarray) -> None:
     """White floes on water, the domain and the structures."""
     dress(axes, run, view, water=WATER)
     draw_domain(axes, run)

@@ -168,9 +168,7 @@ def mark_upstream(axes: Axes, upstream: float) -> None:
     axes.fill_between(facing, 0.0, top, color=SKY, alpha=0.22, linewidth=0.0, zorder=0)
     angle = math.radians(upstream)
     arrow = {"arrowstyle": "-|>,head_width=0.3,head_length=0.6", "color": BLACK, "linewidth": 1.6}
-    axes.annotate(
-        "", xy=(angle, 1.15 * top), xytext=(angle, 1.38 * top), arrowprops=arrow, annotation_clip=False
-    )
+    axes.annotate("", xy=(angle, 1.15 * top), xytext=(angle, 1.38 * top), arrowprops=arrow, annotation_clip=False)
     across, upward = math.cos(angle), math.sin(angle)
     side = "center" if abs(across) < 0.3 else "left" if across > 0.0 else "right"
     level = "center" if abs(upward) < 0.3 else "bottom" if upward > 0.0 else "top"

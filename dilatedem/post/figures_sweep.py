@@ -40,9 +40,11 @@ def group_runs(sweep: Sweep, key: str) -> list[Group]:
         place = axis_value(key, run.values[key])
         if place is not None:
             groups.setdefault(repr(sorted(run.values.items())), Group(place, run.values, [])).runs.append(run)
-    return sorted(
-        groups.values(), key=lambda group: math.inf if isinstance(group.place, str) else group.place
-    )
+    return sorted(groups.values(), key=lambda group: math.inf if isinstance(group.place, str) else group.place)
+
+
+def varies(groups: list[Group], key: str) -> bool:
+    return any(group.values[key] != groups[0].values[key] for group in groups)
 
 
 def setting_words(values: dict[str, Any], keys: list[str]) -> str:
@@ -61,15 +63,21 @@ def sweep_figure(sweep: Sweep, structure: str, key: str) -> Drawing | None:
     groups = [group for group in groups if len(group.loads(structure, "fx_max"))]
     if len({group.place for group in groups}) < 2:
         return None
-    others = [other for other in sweep.keys if other != key]
+    others = [other for other in sweep.keys if other != key and varies(groups, other)]
     lines: dict[str, list[Group]] = {}
     for group in groups:
         lines.setdefault(setting_words(group.values, others), []).append(group)
+    if len(lines) > len(SERIES):
+        lines = {"": groups}  # more settings than anybody can tell apart: dots without a legend
+    # Between words, and between dots of many settings, there is nothing to join.
+    joined = isinstance(groups[0].place, float) and (len(lines) > 1 or not others)
     figure = new_figure(6.6, 5.8)
     panels = figure.subplots(2, 1, sharex=True)
     for axes, (quantity, label) in zip(panels, PANELS, strict=True):
         for index, (setting, members) in enumerate(lines.items()):
-            draw_line(axes, members, structure, quantity, index, setting)
+            look = {"color": SERIES[index], "marker": MARKERS[index], "markersize": 5.5, "label": setting}
+            look |= {"markeredgecolor": "white", "linewidth": 1.2 if joined else 0.0}
+            draw_line(axes, members, structure, quantity, look)
         axes.set_ylabel(label)
         axes.grid(True)
         low, high = axes.get_ylim()
@@ -79,7 +87,7 @@ def sweep_figure(sweep: Sweep, structure: str, key: str) -> Drawing | None:
     if numeric:
         panels[1].margins(x=0.05)
     panels[0].set_title(f"Ice force on {structure}")
-    if others:
+    if len(lines) > 1:
         columns = 2 if max(map(len, lines)) < 36 else 1
         figure.legend(*panels[0].get_legend_handles_labels(), loc="outside lower center", ncols=columns)
     caption = sweep_caption(structure, key, groups, others)
@@ -87,13 +95,9 @@ def sweep_figure(sweep: Sweep, structure: str, key: str) -> Drawing | None:
     return Drawing(name, f"Force on {structure} by {describe_key(key)[0]}", caption, figure)
 
 
-def draw_line(
-    axes: Axes, groups: list[Group], structure: str, quantity: str, index: int, setting: str
-) -> None:
+def draw_line(axes: Axes, groups: list[Group], structure: str, quantity: str, look: dict[str, Any]) -> None:
     """A dot per run; where runs differ in the seed alone, their mean and one standard deviation about it."""
-    colour, marker = SERIES[index % len(SERIES)], MARKERS[index % len(MARKERS)]
     place, mean, spread = [], [], []
-    repeated = False
     for group in groups:
         loads = group.loads(structure, quantity) / 1e3
         if not len(loads):
@@ -102,17 +106,12 @@ def draw_line(
         mean.append(float(loads.mean()))
         spread.append(float(loads.std(ddof=1)) if len(loads) > 1 else 0.0)
         if len(loads) > 1:
-            repeated = True
-            dots = {"color": colour, "alpha": 0.5, "markersize": 3.5, "markeredgewidth": 0}
+            dots = {"color": look["color"], "alpha": 0.5, "markersize": 3.5, "markeredgewidth": 0}
             axes.plot([group.place] * len(loads), loads, "o", zorder=2, **dots)
-    width = 0.0 if isinstance(groups[0].place, str) else 1.2  # between two words there is nothing to join
-    style = {"color": colour, "marker": marker, "markersize": 5.5, "markeredgecolor": "white", "zorder": 3}
-    if repeated:
-        axes.errorbar(
-            place, mean, yerr=spread, capsize=3.0, linewidth=width, elinewidth=1.0, label=setting, **style
-        )
+    if any(spread):
+        axes.errorbar(place, mean, yerr=spread, capsize=3.0, elinewidth=1.0, zorder=3, **look)
     else:
-        axes.plot(place, mean, linewidth=width, label=setting, **style)
+        axes.plot(place, mean, zorder=3, **look)
 
 
 def sweep_caption(structure: str, key: str, groups: list[Group], others: list[str]) -> str:
@@ -123,7 +122,7 @@ def sweep_caption(structure: str, key: str, groups: list[Group], others: list[st
         spread = " Small dots: single runs; large ones: mean over the seeds; bars: one standard deviation."
     left_out = sum(not run.completed for group in groups for run in group.runs)
     words = f" Left out: {plural(left_out, 'run')} that did not complete." if left_out else ""
-    by = f", one line for each {' and '.join(describe_key(other)[0] for other in others)}" if others else ""
+    by = f", for each {' and '.join(describe_key(other)[0] for other in others)}" if others else ""
     return (
         f"Highest force of any time step (above) and mean force (below) along x on {structure}, kN, against "
         f"{axis_label(key)[0].lower() + axis_label(key)[1:]}{by}; {repeats} to a point.{spread}{words}"

@@ -96,6 +96,8 @@ def run_drawings(run: RunFolder) -> list[Drawing]:
     if snapshots:
         drawings += [plan_figure(run, snapshots), speed_figure(run, snapshots)]
     for name, history in run.forces.items():
+        if not history["fh_max_N"].any():
+            continue  # never touched
         drawings += [force_figure(name, history), peak_figure(name, history)]
         load_map = run.load_maps.get(name)
         if load_map is not None and load_map.kind == "pile":

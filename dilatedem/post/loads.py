@@ -64,9 +64,7 @@ def load_statistics(history: Table) -> dict[str, Any]:
 
 def quantiles(values: np.ndarray) -> dict[str, float]:
     """Values not exceeded in this percentage of the windows."""
-    return {
-        f"{q:g}": float(value) for q, value in zip(QUANTILES, np.percentile(values, QUANTILES), strict=True)
-    }
+    return {f"{q:g}": float(value) for q, value in zip(QUANTILES, np.percentile(values, QUANTILES), strict=True)}
 
 
 def peak_statistics(highest: np.ndarray, lengths: np.ndarray) -> dict[str, Any]:

@@ -67,6 +67,8 @@ def step_words(summary: dict) -> str:
 def load_words(statistics: dict) -> str:
     if not statistics["windows"]:
         return "no rows yet"
+    if statistics["fh"]["peak_N"] == 0.0:
+        return "never touched"
     fh, fx, fy = statistics["fh"], statistics["fx"], statistics["fy"]
     return (
         f"peak {number(fh['peak_N'] / 1e3, 3)} kN at {number(fh['peak_time_s'], 5)} s, "
@@ -78,9 +80,7 @@ def load_words(statistics: dict) -> str:
 
 def describe_sweep(folder: Path) -> str:
     sweep = read_sweep(folder)
-    ended = ", ".join(
-        f"{count} {status}" for status, count in Counter(run.status for run in sweep.runs).items()
-    )
+    ended = ", ".join(f"{count} {status}" for status, count in Counter(run.status for run in sweep.runs).items())
     lines = [
         f"Sweep: {sweep.title}",
         f"  {'folder':<12}{folder}",

@@ -66,9 +66,7 @@ def choose_view(run: RunFolder, fields: list[list[np.ndarray]]) -> View:
                 centre, radius = structure["center"][axis], structure["radius"]
                 limits[axis] = [min(limits[axis][0], centre - radius), max(limits[axis][1], centre + radius)]
     margin = MARGIN * max(run.domain_size)
-    return View(
-        (limits[0][0] - margin, limits[0][1] + margin), (limits[1][0] - margin, limits[1][1] + margin)
-    )
+    return View((limits[0][0] - margin, limits[0][1] + margin), (limits[1][0] - margin, limits[1][1] + margin))
 
 
 def periodic_copies(run: RunFolder, outlines: list[np.ndarray]) -> tuple[list[np.ndarray], np.ndarray]:
@@ -93,9 +91,7 @@ def periodic_copies(run: RunFolder, outlines: list[np.ndarray]) -> tuple[list[np
     return drawn, np.array(owner, dtype=np.int64)
 
 
-def draw_floes(
-    axes: Axes, run: RunFolder, view: View, outlines: list[np.ndarray], **appearance
-) -> PolyCollection:
+def draw_floes(axes: Axes, run: RunFolder, view: View, outlines: list[np.ndarray], **appearance) -> PolyCollection:
     """Add the floes and their periodic images; `array` in `appearance` is a value per floe to be coloured."""
     drawn, owner = periodic_copies(run, outlines)
     for name in ("array", "facecolors"):
@@ -148,9 +144,7 @@ def draw_plane(axes: Axes, structure: dict, view: View) -> None:
     along = np.array([-across[1], across[0]]) * (view.width + view.height)
     depth = across * 0.03 * max(view.width, view.height)
     corners = [foot - along, foot + along, foot + along - depth, foot - along - depth]
-    axes.add_patch(
-        Polygon(corners, facecolor="none", edgecolor=STRUCTURE, hatch="////", linewidth=0.0, zorder=4)
-    )
+    axes.add_patch(Polygon(corners, facecolor="none", edgecolor=STRUCTURE, hatch="////", linewidth=0.0, zorder=4))
     axes.plot(*zip(corners[0], corners[1], strict=True), color=STRUCTURE_EDGE, linewidth=1.4, zorder=4)
 
 
@@ -178,6 +172,4 @@ def dress(axes: Axes, run: RunFolder, view: View, *, water: str | None = None) -
     axes.label_outer()
     if water is not None:
         (x_low, x_high), (y_low, y_high) = drawn_limits(run, view)
-        axes.add_patch(
-            Rectangle((x_low, y_low), x_high - x_low, y_high - y_low, color=water, linewidth=0, zorder=0)
-        )
+        axes.add_patch(Rectangle((x_low, y_low), x_high - x_low, y_high - y_low, color=water, linewidth=0, zorder=0))

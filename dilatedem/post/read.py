@@ -104,9 +104,7 @@ class RunFolder:
     def simulated(self) -> float:
         """How far the run got [s]: the latest time in any of its files."""
         times = [float(self.summary.get("simulated_s") or 0.0)]
-        times += [
-            float(table["time_s"][-1]) for table in [self.energy, *self.forces.values()] if row_count(table)
-        ]
+        times += [float(table["time_s"][-1]) for table in [self.energy, *self.forces.values()] if row_count(table)]
         times += [time for time, _ in self.snapshots[-1:]]
         return max(times)
 

@@ -20,8 +20,7 @@ BODIES_LISTED = 5  # more explicit bodies than this are counted in the case tabl
 PAIRS = {"ice_ice": "floe on floe", "ice_structure": "floe on structure"}
 
 LIMITS = (
-    "Floes are rigid: they do not crush, split, raft or ridge, though some of these peaks would break real "
-    "ice.",
+    "Floes are rigid: they do not crush, split, raft or ridge, though some of these peaks would break real ice.",
     "The structure does not give way; its own compliance would soften the peaks.",
     "The water is a uniform current without waves, and the ice does not change its flow. Its drag acts on "
     "the whole wetted surface of a floe: about ten times the drag of a formula for the frontal area.",
@@ -88,15 +87,12 @@ def render(template: str, path: Path, **content: Any) -> Path:
 
 
 def inline(figures: list[tuple[Drawing, str]]) -> list[dict[str, Any]]:
-    return [
-        {"title": drawing.title, "caption": drawing.caption, "name": drawing.name, "svg": svg}
-        for drawing, svg in figures
-    ]
+    return [{"title": drawing.title, "caption": drawing.caption, "name": drawing.name, "svg": svg} for drawing, svg in figures]
 
 
 def load_rows(statistics: dict[str, Any]) -> Rows:
-    """What, value and unit of the load on one structure."""
-    if not statistics["windows"]:
+    """What, value and unit of the load on one structure; none where there is nothing to tell."""
+    if not statistics["windows"] or statistics["fh"]["peak_N"] == 0.0:
         return []
     fh, fx, fy, peaks = statistics["fh"], statistics["fx"], statistics["fy"], statistics["peaks"]
     rows = [
@@ -212,9 +208,7 @@ def case_rows(case: dict[str, Any]) -> Rows:
     shown = dict(case)
     if len(bodies) > BODIES_LISTED:
         shown["body"] = f"{len(bodies)} explicit bodies, see case.toml"
-    units = {
-        key: "" if isinstance(value, str) else describe_key(key)[1] for key, value in flatten(shown).items()
-    }
+    units = {key: "" if isinstance(value, str) else describe_key(key)[1] for key, value in flatten(shown).items()}
     return [[key, show(value), units[key]] for key, value in flatten(shown).items()]
 
 

@@ -173,9 +173,7 @@ def write_table(sweep: Sweep, path: Path) -> None:
             loads = [run.loads.get(name, {}).get(quantity, "") for name, quantity in columns]
             values = ["" if run.values[key] is None else run.values[key] for key in sweep.keys]
             folder = relative(run.folder, sweep.folder)
-            writer.writerow(
-                [*values, run.seed, folder, run.status, *loads, run.residual_over_work, run.message]
-            )
+            writer.writerow([*values, run.seed, folder, run.status, *loads, run.residual_over_work, run.message])
 
 
 def relative(path: Path, start: Path) -> str:

@@ -96,14 +96,14 @@ def submerged_polyhedron(z, nx, ny, nz, hulls, body, works, thread):
 
 
 @device
-def submerge(first, last, model, bodies, workspace, thread):
+def submerge(first, last, hulls, bodies, workspace, thread):
     """Submerged volume, centre of buoyancy (body frame) and wetted area of bodies first..last-1, to their rows of `workspace.wet`.
 
     Two passes, the closed form and then what it leaves (volume -1); arrays are named once, outside the loops: a reference counted per
     floe costs more than the closed form.
     """
     q, wet, position = bodies.orientation, workspace.wet, bodies.position
-    prism, plan, height = model.hulls.prism, model.hulls.plan, model.hulls.height
+    prism, plan, height = hulls.prism, hulls.plan, hulls.height
     for i in range(first, last):
         up = rotation_matrix(q[i, 0], q[i, 1], q[i, 2], q[i, 3])[2]
         valid, volume, cx, cy, cz, wetted = submerged_prism(position[i, 2], up[0], up[1], up[2], plan, height, i)
@@ -112,14 +112,14 @@ def submerge(first, last, model, bodies, workspace, thread):
         wet[i, 0], wet[i, 1], wet[i, 2], wet[i, 3], wet[i, 4] = volume, cx, cy, cz, wetted
     for i in range(first, last):
         if wet[i, 0] < 0.0:
-            submerge_tilted(i, model, bodies, workspace, thread)
+            submerge_tilted(i, hulls, bodies, workspace, thread)
 
 
 @device
-def submerge_tilted(body, model, bodies, workspace, thread):
+def submerge_tilted(body, hulls, bodies, workspace, thread):
     """As `submerge`, for one body at any tilt."""
     q, wet = bodies.orientation, workspace.wet
     up = rotation_matrix(q[body, 0], q[body, 1], q[body, 2], q[body, 3])[2]
     wet[body, 0], wet[body, 1], wet[body, 2], wet[body, 3], wet[body, 4] = submerged_polyhedron(
-        bodies.position[body, 2], up[0], up[1], up[2], model.hulls, body, workspace.hull, thread
+        bodies.position[body, 2], up[0], up[1], up[2], hulls, body, workspace.hull, thread
     )

@@ -6,13 +6,12 @@ from dilatedem.numerics.vector import add, along, cross, dot, load, norm, scale,
 
 
 @item
-def body_loads(i, model, bodies, wet):
+def body_loads(i, hulls, solids, surroundings, bodies, wet):
     """Force [N] and torque about the centroid [N m] on body i, and the power of the drag [W].
 
     wet (n, 5): see `water.floating.submerge`; not read where there is no water.
     """
-    surroundings = model.surroundings
-    weight = -model.solids.mass[i] * surroundings.gravity
+    weight = -solids.mass[i] * surroundings.gravity
     volume = wet[i, 0] if surroundings.water else 0.0
     if volume == 0.0:
         return (0.0, 0.0, weight), (0.0, 0.0, 0.0), 0.0
@@ -25,7 +24,7 @@ def body_loads(i, model, bodies, wet):
     u = sub(v, (surroundings.current_x, surroundings.current_y, 0.0))
     drag = scale(-0.5 * surroundings.drag_force * density * wetted * norm(u), u)  # Eq. (26)
     w = load(bodies.angular_velocity, i)
-    size = model.hulls.effective_radius[i]
+    size = hulls.effective_radius[i]
     brake = scale(-0.5 * surroundings.drag_moment * size**3 * density * wetted * norm(w), w)  # Eq. (27)
     power = dot(drag, v) + dot(brake, w)
     return along(drag, 1.0, (0.0, 0.0, weight + lift)), add(righting, brake), power

@@ -23,14 +23,8 @@ PILE = {
     "elastic_modulus": 210e9,
     "poisson_ratio": 0.3,
 }
-FORCES = (
-    "time_s,structure,fx_N,fy_N,fz_N,mx_Nm,my_Nm,mz_Nm,"
-    "fx_min_N,fx_max_N,fy_min_N,fy_max_N,fh_max_N,contacts\n"
-)
-ENERGY = (
-    "time_s,kinetic,gravity,buoyancy,elastic,work_drag,work_structure,"
-    "loss_damping,loss_friction,gain_law,residual\n"
-)
+FORCES = "time_s,structure,fx_N,fy_N,fz_N,mx_Nm,my_Nm,mz_Nm,fx_min_N,fx_max_N,fy_min_N,fy_max_N,fh_max_N,contacts\n"
+ENERGY = "time_s,kinetic,gravity,buoyancy,elastic,work_drag,work_structure,loss_damping,loss_friction,gain_law,residual\n"
 
 
 @pytest.fixture(scope="session")
@@ -130,9 +124,7 @@ def write_snapshots(folder, outlines, current, duration):
     entries = ""
     for number, time in enumerate(np.linspace(0.0, duration, 3)):
         shift = np.array(current) * time
-        write_vtu(
-            folder / f"snapshots/ice_{number:06d}.vtu", [outline + shift for outline in outlines], current
-        )
+        write_vtu(folder / f"snapshots/ice_{number:06d}.vtu", [outline + shift for outline in outlines], current)
         entries += f'<DataSet timestep="{time:g}" group="" part="0" file="snapshots/ice_{number:06d}.vtu"/>\n'
     head = '<?xml version="1.0"?>\n<VTKFile type="Collection" version="0.1"><Collection>\n'
     (folder / "ice.pvd").write_text(f"{head}{entries}</Collection></VTKFile>\n")
@@ -174,9 +166,7 @@ def write_archive(path, structures, outlines, duration):
             pile = structure["kind"] == "pile"
             edges = np.linspace(-180.0, 180.0, 73) if pile else np.linspace(-20.0, 20.0, 41)
             middle = 0.5 * (edges[1:] + edges[:-1])
-            around = (
-                np.maximum(0.0, -np.cos(np.radians(middle))) ** 3 if pile else np.exp(-((middle / 5.0) ** 2))
-            )
+            around = np.maximum(0.0, -np.cos(np.radians(middle))) ** 3 if pile else np.exp(-((middle / 5.0) ** 2))
             group["impulse_Ns"] = 400.0 * np.outer(around, [0, 1, 2, 3, 3, 2, 1, 0])
             group["angle_edges_deg" if pile else "distance_edges_m"] = edges
             group["height_edges_m"] = heights

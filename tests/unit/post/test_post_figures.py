@@ -129,9 +129,7 @@ def test_every_structure_gets_its_figures_and_a_plane_no_polar_plot(make_run, tm
 def test_same_bytes_every_time_whatever_the_users_settings(run, tmp_path):
     def digest(folder):
         canvas.save(field_figure(run, run.floes.outlines), folder)
-        return [
-            hashlib.sha256((folder / f"field.{kind}").read_bytes()).hexdigest() for kind in ("png", "svg")
-        ]
+        return [hashlib.sha256((folder / f"field.{kind}").read_bytes()).hexdigest() for kind in ("png", "svg")]
 
     first = digest(tmp_path / "a")
     with matplotlib.rc_context({"font.size": 20.0, "axes.facecolor": "black", "svg.hashsalt": None}):

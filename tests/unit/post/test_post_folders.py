@@ -48,18 +48,14 @@ def check_page(path, *, pictures):
     page = path.read_text(encoding="utf-8")
     assert page.count("<svg") == pictures == page.count("<figcaption>")
     assert re.findall(r"(?:src|href)=[\"'](?!#|data:)[^\"']*", page) == []
-    assert (
-        "<script" not in page and "@import" not in page and "None" not in page and "nan" not in page.split()
-    )
+    assert "<script" not in page and "@import" not in page and "None" not in page and "nan" not in page.split()
     ids = re.findall(r"<clipPath id=\"([^\"]+)\"", page)
     assert len(ids) == len(set(ids))
 
 
 def test_killed_run_of_two_structures(make_run, tmp_path):
     pile = {"kind": "pile", "name": "<pile & co>", "center": [4.0, 0.0], "radius": 1.5}
-    folder = make_run(
-        tmp_path / "run", structures=(pile, PLANE), duration=1.0, status="running", snapshots=False
-    )
+    folder = make_run(tmp_path / "run", structures=(pile, PLANE), duration=1.0, status="running", snapshots=False)
     for name in ("forces.csv", "energy.csv"):
         text = (folder / name).read_text()
         (folder / name).write_text(text[: len(text) // 2])
@@ -127,7 +123,5 @@ def test_info_needs_neither_matplotlib_nor_the_simulation(make_run, tmp_path):
         "import sys, pathlib; from dilatedem.post import info; info(pathlib.Path(sys.argv[1]));"
         "print([name for name in ('matplotlib', 'meshio', 'numba', 'jinja2') if name in sys.modules])"
     )
-    done = subprocess.run(
-        [sys.executable, "-c", code, str(folder)], capture_output=True, text=True, check=True
-    )
+    done = subprocess.run([sys.executable, "-c", code, str(folder)], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "[]"

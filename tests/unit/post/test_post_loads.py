@@ -97,9 +97,7 @@ def test_load_sits_where_it_was_put():
     assert found["share_within_90_deg_of_upstream"] < 1.0
     seen_from_its_middle = angular_statistics(load_map, -160.0)
     assert seen_from_its_middle["share_within_90_deg_of_upstream"] == pytest.approx(1.0)
-    assert seen_from_its_middle["share_within_45_deg_of_upstream"] == pytest.approx(
-        math.sin(math.pi / 4), abs=0.06
-    )
+    assert seen_from_its_middle["share_within_45_deg_of_upstream"] == pytest.approx(math.sin(math.pi / 4), abs=0.06)
     assert "share_within_45_deg_of_upstream" not in angular_statistics(load_map, None)
     assert angular_statistics(pile_map(lambda angle: 0.0), 180.0) == {}
 

@@ -15,10 +15,7 @@ def bodies(count, random):
         angle = np.arange(sides) * 2.0 * np.pi / sides
         outers.append(prism(np.column_stack([np.cos(angle), np.sin(angle)]), -0.25, 0.25))
     position = np.column_stack([10.0 * np.arange(count), np.zeros(count), np.zeros(count)])
-    data = {
-        name: random.uniform(size=(count, parts) if parts > 1 else count)
-        for name, (_, parts) in CELL_DATA.items()
-    }
+    data = {name: random.uniform(size=(count, parts) if parts > 1 else count) for name, (_, parts) in CELL_DATA.items()}
     data["body"] = data["contacts"] = np.arange(count)
     return outers, position, data
 
@@ -36,9 +33,7 @@ def test_snapshot_comes_back(tmp_path, count):
     assert np.array_equal(snapshot.velocity, data["velocity"][snapshot.body])
     for outline, body in zip(snapshot.outlines, snapshot.body, strict=True):
         true = outers[body].vertices[:, :2] + position[body, :2]
-        assert {tuple(point) for point in np.round(outline, 9)} == {
-            tuple(point) for point in np.round(true, 9)
-        }
+        assert {tuple(point) for point in np.round(outline, 9)} == {tuple(point) for point in np.round(true, 9)}
 
 
 def test_file_cut_short_anywhere_is_refused(tmp_path):

@@ -65,7 +65,7 @@ def test_figure_shows_mean_and_spread_over_the_seeds(tmp_path):
     assert line.get_xdata() == pytest.approx([0.25, 0.5, 1.0])
     assert line.get_ydata() == pytest.approx([0.375, 0.75, 1.5])
     assert drawing.figure.axes[1].get_xlabel() == "Current speed (m/s)"
-    assert "one line for each contact model" in drawing.caption
+    assert "for each contact model" in drawing.caption
 
 
 def test_key_that_takes_one_value_has_no_figure(tmp_path):
