@@ -178,9 +178,9 @@ def post(runs: RunsArgument) -> None:
     """
     from dilatedem.post import post as make_figures
 
-    for folder in runs:
-        _require_run(folder)
-    make_figures(list(runs))
+    for path in make_figures(list(runs)):
+        if path.name == "report.html":
+            print(path)
 
 
 @app.command()

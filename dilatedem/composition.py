@@ -33,8 +33,8 @@ MOST_FACE_CORNERS = MOST_CORNERS // 2 - 1
 class PlacedBody:
     """A body at t = 0.
 
-    outline: (k, 2) [m] as seen from above, world coordinates; plan_area [m2]; number: in the case's `[[body]]` list, None for a floe
-    that was generated.
+    outline: (k, 2) [m] as seen from above, world coordinates; plan_area [m2]; number: in the case's `[[body]]` list, None for a
+    floe that was generated.
     """
 
     shape: BodyShape
@@ -177,7 +177,7 @@ def build_model(case: Case, scene: Scene) -> Model:
         ),
         surroundings=Surroundings(
             case.gravity.acceleration, water.enabled, water.density, *current, water.drag_force_coefficient,
-            water.drag_moment_coefficient, *(size if wraps else 0.0 for size, wraps in zip(case.domain.size, periodic, strict=True)),
+            water.drag_moment_coefficient, *np.where(periodic, case.domain.size, 0.0).tolist(),
         ),
     )  # fmt: skip
 

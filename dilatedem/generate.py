@@ -2,51 +2,20 @@
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
 from dilatedem.case.schema import Case
-from dilatedem.case.solids import Body
+from dilatedem.composition import PlacedBody, compose
 from dilatedem.errors import CaseError
-from dilatedem.field.placement import (
-    Disk,
-    FloeField,
-    HalfPlane,
-    Obstacle,
-    Region,
-    equilibrium_height,
-    ice_field,
-)
-from dilatedem.field.sizes import floe_count
-from dilatedem.geometry import outline as outer_outline
-from dilatedem.geometry.polyhedron import Polyhedron, convex_hull, prism
-from dilatedem.geometry.shapes import BodyShape
+from dilatedem.field.placement import FloeField
 from dilatedem.output.atomic import replacing
 from dilatedem.output.folder import holds_run
 from dilatedem.output.summary import write_json
-from dilatedem.output.vtu import rotation_matrices, write_shapes
+from dilatedem.output.vtu import write_shapes
 
 SIZE_MAP = "viridis"
-
-
-@dataclass(frozen=True, eq=False)
-class PlacedBody:
-    """A body at t = 0.
-
-    outer        outer shape in its own frame
-    position     (3,) centroid [m]
-    orientation  (4,) unit quaternion, body to world
-    outline      (n, 2) [m] as seen from above, world coordinates
-    plan_area    [m2]
-    """
-
-    outer: Polyhedron
-    position: np.ndarray
-    orientation: np.ndarray
-    outline: np.ndarray
-    plan_area: float
 
 
 def generate(case: Case, out: Path, *, overwrite: bool = False) -> dict:
@@ -60,13 +29,9 @@ def generate(case: Case, out: Path, *, overwrite: bool = False) -> dict:
         raise CaseError(
             f"{out}: holds a run, which a new field could contradict; choose another folder (--out)"
         )
-    try:
-        explicit = [explicit_body(case, body) for body in case.body]
-        field = floe_field(case, explicit)
-        outlines = zip(field.outlines, field.plan_area, strict=True)
-        bodies = explicit + [floating_floe(case, outline, area) for outline, area in outlines]
-    except ValueError as fault:
-        raise CaseError(f"the ice field cannot be built: {fault}") from fault
+    scene = compose(case)
+    bodies, field = scene.bodies, scene.field
+    explicit = [body for body in bodies if body.number is not None]
     facts = field_facts(case, field, explicit)
     save_picture = _picture(case, bodies)
 
@@ -74,7 +39,7 @@ def generate(case: Case, out: Path, *, overwrite: bool = False) -> dict:
     size = np.sqrt([body.plan_area for body in bodies])
     write_shapes(
         out / "field.vtu",
-        [body.outer for body in bodies],
+        [body.shape.outer for body in bodies],
         np.reshape([body.position for body in bodies], (-1, 3)),
         np.reshape([body.orientation for body in bodies], (-1, 4)),
         {"body": np.arange(len(bodies)), "floe_size": size},
@@ -83,84 +48,6 @@ def generate(case: Case, out: Path, *, overwrite: bool = False) -> dict:
         save_picture(temporary)
     write_json(out / "field.json", facts)
     return facts
-
-
-def floe_field(case: Case, explicit: list[PlacedBody]) -> FloeField:
-    """The generated floes of a case, clear of its structures and of its explicit bodies."""
-    if case.field.source == "bodies":
-        return FloeField([], np.zeros(0), 1.0, 0.0, 0)
-    size = case.domain.size
-    count = case.field.floe_count
-    if count is None:
-        count = floe_count(size, case.field.concentration, case.field.floe_size)
-    return ice_field(
-        size,
-        count,
-        case.field.concentration,
-        periodic=[side == "periodic" for side in (case.domain.x_boundary, case.domain.y_boundary)],
-        seed=case.field.seed,
-        dilated_radius=case.ice.dilated_radius,
-        obstacles=[*_structure_obstacles(case), *(Region(body.outline) for body in explicit)],
-    )
-
-
-def _structure_obstacles(case: Case) -> list[Obstacle]:
-    obstacles: list[Obstacle] = []
-    for structure in case.structure:
-        if structure.kind == "pile":
-            obstacles.append(Disk(structure.center, structure.radius))
-        elif math.hypot(*structure.normal[:2]) > 0.0:  # a level plane bounds no floe in plan
-            level = math.hypot(*structure.normal[:2])
-            across, slope = np.array(structure.normal[:2]) / level, structure.normal[2] / level
-            # Where it stands out furthest towards the ice, over the heights that a floe can take up.
-            reach = slope * structure.point[2] + abs(slope) * case.ice.thickness
-            foot = np.array(structure.point[:2]) + across * reach
-            obstacles.append(HalfPlane(tuple(foot), tuple(across)))
-    return obstacles
-
-
-def floating_floe(case: Case, outline: np.ndarray, plan_area: float) -> PlacedBody:
-    """A floe of the case's ice over an outer outline (n, 2) [m]; plan_area [m2] that of the dilated floe."""
-    shape, centroid = _floe_shape(outline, case.ice.thickness, case.ice.dilated_radius)
-    height = _floating_height(case, shape, case.ice.density)
-    position = np.array([centroid[0], centroid[1], height])
-    return PlacedBody(shape.outer, position, np.array([1.0, 0.0, 0.0, 0.0]), outline, float(plan_area))
-
-
-def explicit_body(case: Case, body: Body) -> PlacedBody:
-    """A [[body]] entry in its place at t = 0."""
-    if body.outline is not None:
-        shape, centroid = _floe_shape(
-            outer_outline.prepare(body.outline), body.thickness, body.dilated_radius
-        )
-        position = np.array([*centroid[:2], _floating_height(case, shape, body.density)])
-    else:
-        shape, centroid = BodyShape.of_core(convex_hull(body.vertices), body.dilated_radius)
-        position = np.zeros(3)
-    if body.position is not None:
-        position[: len(body.position)] = body.position
-    orientation = _quaternion(body.rotation)
-    corners = shape.outer.vertices @ rotation_matrices(orientation)[0].T + position
-    shadow = convex_hull(corners * [1.0, 1.0, 0.0])
-    seen = shadow.vertices[:, :2]
-    if outer_outline.area(seen) < 0.0:
-        seen = seen[::-1]
-    return PlacedBody(shape.outer, position, orientation, seen, float(outer_outline.area(seen)))
-
-
-def _floe_shape(outline: np.ndarray, thickness: float, radius: float) -> tuple[BodyShape, np.ndarray]:
-    half = 0.5 * thickness - radius
-    return BodyShape.of_core(prism(outer_outline.erode(outline, radius), -half, half), radius)
-
-
-def _floating_height(case: Case, shape: BodyShape, density: float) -> float:
-    return equilibrium_height(shape.outer, density, case.water.density) if case.water.enabled else 0.0
-
-
-def _quaternion(rotation_vector) -> np.ndarray:
-    angle = math.hypot(*rotation_vector)
-    axis = np.array(rotation_vector) / angle if angle > 0.0 else np.zeros(3)
-    return np.array([math.cos(0.5 * angle), *(math.sin(0.5 * angle) * axis)])
 
 
 def field_facts(case: Case, field: FloeField, explicit: list[PlacedBody]) -> dict:

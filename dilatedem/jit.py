@@ -81,8 +81,8 @@ def device(function):
 def item(function):
     """Compile the work on one body or pair, merged into the loop that calls it.
 
-    A call would hand over every array of every NamedTuple (over 1 us, more than the work itself). The merging is LLVM's; Numba's own
-    `inline="always"` loses writes in parallel loops.
+    A call would hand over every array of every NamedTuple, which takes longer than the work itself. The merging is LLVM's;
+    Numba's own `inline="always"` loses writes in parallel loops.
     """
     return numba.njit(**_INNER, forceinline=True)(function)
 

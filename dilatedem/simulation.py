@@ -26,7 +26,6 @@ from dilatedem.motion.step import advance
 from dilatedem.motion.timestep import assembled_frequency, critical_step
 from dilatedem.output import checkpoint, folder
 from dilatedem.output.progress import Progress
-from dilatedem.output.schedule import Schedule
 from dilatedem.run_output import RunOutput, Totals
 from dilatedem.state.bodies import Bodies
 from dilatedem.state.clock import Clock, Status, clock_at_start

@@ -67,7 +67,7 @@ class Hulls(NamedTuple):
     loop_start: np.ndarray  # (f+1,)
     loop: np.ndarray
     prism: np.ndarray  # (m,) whether the hull is a right prism along its z axis
-    plan: np.ndarray  # (m, 8) of a prism: area, Ixx, Iyy, Ixy (second moments of the plan), perimeter, Sx, Sy (its first moments), reach
+    plan: np.ndarray  # (m, 8) of a prism: area, its second moments Ixx, Iyy, Ixy, perimeter, its first moments Sx, Sy, reach
     height: np.ndarray  # (m, 2) z of the prism's bottom and top, m
     effective_radius: np.ndarray  # (m,) mean distance of the outer vertices from the centroid, m: r_eff of Liu 2015, Eq. (27)
 

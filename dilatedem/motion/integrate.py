@@ -5,11 +5,9 @@ force over a step is then exactly force x velocity x dt, so that the ledger clos
 world axes as its state: without torque |L| cannot change.
 """
 
-from math import sqrt
-
 from dilatedem.jit import device, item
 from dilatedem.numerics.rotation import rotation_matrix, to_body, to_world, turned
-from dilatedem.numerics.vector import along, cross, dot, load, norm, store
+from dilatedem.numerics.vector import along, cross, dot, load, store
 
 
 @item
@@ -33,7 +31,7 @@ def spin_of(i, solids, orientation, momentum):
 def drift(i, dt, solids, bodies, reach, frame):
     """Half a kick and the whole move of body i; velocities become a prediction for the end of the step.
 
-    frame (2,) [m/s]: where paths are measured. Returns the distance that any of its points moved at most, in that frame [m].
+    frame (2,) [m/s]: where paths are measured. Returns a bound on the distance that any of its points moved in that frame [m].
     """
     inverse_mass = solids.inverse_mass[i]
     kick = 0.5 * dt * inverse_mass
@@ -57,19 +55,23 @@ def drift(i, dt, solids, bodies, reach, frame):
     q[i, 0], q[i, 1], q[i, 2], q[i, 3] = w, x, y, z
     store(bodies.angular_velocity, i, spin_of(i, solids, q, along(momentum, 0.5 * dt, torque)))
 
-    dx, dy = middle[0] - frame[0], middle[1] - frame[1]
-    return dt * (sqrt(dx * dx + dy * dy + middle[2] * middle[2]) + norm(spin) * reach)
+    # sums instead of lengths: no smaller, and without a square root
+    moved = abs(middle[0] - frame[0]) + abs(middle[1] - frame[1]) + abs(middle[2])
+    return dt * (moved + (abs(spin[0]) + abs(spin[1]) + abs(spin[2])) * reach)
 
 
 @item
 def kick(i, dt, solids, bodies):
-    """The second half of the kick of body i, by the loads at the end of the step."""
-    store(
-        bodies.velocity, i, along(load(bodies.middle_velocity, i), 0.5 * dt * solids.inverse_mass[i], load(bodies.force, i))
-    )
-    momentum = along(load(bodies.middle_angular_momentum, i), 0.5 * dt, load(bodies.torque, i))
-    store(bodies.angular_momentum, i, momentum)
-    store(bodies.angular_velocity, i, spin_of(i, solids, bodies.orientation, momentum))
+    """The second half of the kick of body i, by the loads at the end of the step; `complete_spin` turns it into a spin."""
+    speed_up = 0.5 * dt * solids.inverse_mass[i]
+    store(bodies.velocity, i, along(load(bodies.middle_velocity, i), speed_up, load(bodies.force, i)))
+    store(bodies.angular_momentum, i, along(load(bodies.middle_angular_momentum, i), 0.5 * dt, load(bodies.torque, i)))
+
+
+@item
+def complete_spin(i, solids, bodies):
+    """Angular velocity of body i from its angular momentum: for whoever looks at the bodies, the next step does not need it."""
+    store(bodies.angular_velocity, i, spin_of(i, solids, bodies.orientation, load(bodies.angular_momentum, i)))
 
 
 @device

@@ -6,7 +6,7 @@ on the number of threads. (Writes through a NamedTuple *inside* a prange would b
 
 from dilatedem.contact.collide import collide
 from dilatedem.jit import by_team, device, item, prange, shared_loop
-from dilatedem.motion.integrate import drift, kick
+from dilatedem.motion.integrate import complete_spin, drift, kick
 from dilatedem.state.clock import Status
 from dilatedem.water.floating import submerge
 from dilatedem.water.loads import body_loads
@@ -39,6 +39,15 @@ def drift_bodies(dt, model, bodies, pairs, clock):
     for i in range(model.floating, len(path)):
         path[i] += dt * (pairs.frame[0] ** 2 + pairs.frame[1] ** 2) ** 0.5
     return True
+
+
+@device
+def complete_spins(model, bodies):
+    """Angular velocities of all free bodies at this instant."""
+    solids = model.solids
+    for i in range(model.floating):
+        if solids.inverse_mass[i] > 0.0:
+            complete_spin(i, solids, bodies)
 
 
 @device
@@ -121,7 +130,7 @@ def load_and_kick(team, dt, model, bodies, workspace):
 
 @device
 def too_deep(count, shapes, pairs, workspace, clock):
-    """Look for an overlap past what the method can mean; status and culprits go to `clock`."""
+    """Whether some overlap is past what the method can mean; status and culprits go to `clock`."""
     for w in range(count):
         k = workspace.awake[w]
         limit = DEEPEST * (shapes.radius[pairs.a[k]] + shapes.radius[pairs.b[k]])
@@ -129,4 +138,5 @@ def too_deep(count, shapes, pairs, workspace, clock):
             clock.status[0] = TOO_DEEP
             clock.culprit[0], clock.culprit[1] = pairs.a[k], pairs.b[k]
             clock.measure[0] = pairs.overlap[k]
-            return
+            return True
+    return False

@@ -30,26 +30,22 @@ def critical_step(model, bodies) -> float:
     free = np.flatnonzero(solids.inverse_mass > 0.0)
     if len(free) == 0:
         return np.inf
-    structures = solids.compliance[model.floating :]
+    held = np.flatnonzero(solids.inverse_mass == 0.0)  # structures and fixed bodies
+    stiffest_held = solids.compliance[held].min(initial=np.inf)
     speed = _impact_speed(model, bodies, free)
     shrink = sqrt(1.0 + damping**2) - damping
     shortest = np.inf
     for i in free:
-        mobility = _worst_mobility(shapes, solids, i)
-        # against another body like itself; against a structure, which does not move
-        partners = [(2.0, 2.0 * solids.compliance[i])]
-        partners += [(1.0, solids.compliance[i] + compliance) for compliance in structures]
-        partners += [(1.0, solids.compliance[i] + solids.compliance[j]) for j in _fixed_or_stiffer(solids, i, model.floating)]
-        for bodies_moving, compliance in partners:
+        mobility, area = _worst_mobility(shapes, solids, i), _largest_face(shapes, i)
+        # against a body like itself (both give way), and against what does not move
+        for moving, compliance in ((2.0, 2.0 * solids.compliance[i]), (1.0, solids.compliance[i] + stiffest_held)):
             modulus = 1.0 / compliance
-            mass = 1.0 / (bodies_moving * solids.inverse_mass[i])
-            area = _largest_face(shapes, i)
             face = 2.0 * modulus * BETA * sqrt(area / pi)
             if face > 0.0:
-                shortest = min(shortest, 2.0 * shrink / sqrt(bodies_moving * mobility * face))
+                shortest = min(shortest, 2.0 * shrink / sqrt(moving * mobility * face))
             hertz = 4.0 / 3.0 * modulus * sqrt(shapes.radius[i])
             if hertz > 0.0:
-                depth = (1.25 * mass * speed**2 / hertz) ** 0.4
+                depth = (1.25 * speed**2 / (moving * solids.inverse_mass[i] * hertz)) ** 0.4
                 shortest = min(shortest, 2.943 * depth / speed / STEPS_PER_CONTACT)
     return shortest
 
@@ -61,12 +57,6 @@ def _impact_speed(model, bodies, free) -> float:
     current = np.hypot(surroundings.current_x, surroundings.current_y)
     settling = SETTLING_SPEED * np.sqrt(surroundings.gravity * model.shapes.reach[free].max())
     return max(2.0 * moving, current, settling, 1e-6)
-
-
-def _fixed_or_stiffer(solids, i: int, floating: int) -> list[int]:
-    """One representative each: the stiffest fixed body."""
-    fixed = np.flatnonzero(solids.inverse_mass[:floating] == 0.0)
-    return [fixed[np.argmin(solids.compliance[fixed])]] if len(fixed) else []
 
 
 def _worst_mobility(shapes, solids, i: int) -> float:

@@ -121,14 +121,18 @@ def test_generate(simulation, monkeypatch):
 
 def test_post_and_info(simulation, monkeypatch, tmp_path):
     asked = []
-    fake = types.SimpleNamespace(post=asked.append, info=lambda folder: f"{folder.name} is a run")
+
+    def fake_post(folders):
+        asked.append(folders)
+        return [tmp_path / "figures" / "field.png", tmp_path / "report.html"]
+
+    fake = types.SimpleNamespace(post=fake_post, info=lambda folder: f"{folder.name} is a run")
     monkeypatch.setitem(sys.modules, "dilatedem.post", fake)
     result = invoke("info", tmp_path / "none")
     assert (result.exit_code, result.stderr) == (2, f"{tmp_path}/none: no such folder\n")
-    result = invoke("post", tmp_path)
-    assert (result.exit_code, result.stderr) == (2, f"{tmp_path}: holds no run\n")
     (tmp_path / "summary.json").touch()
-    assert invoke("post", tmp_path).exit_code == 0
+    result = invoke("post", tmp_path)
+    assert (result.exit_code, result.stdout) == (0, f"{tmp_path / 'report.html'}\n")
     assert asked == [[tmp_path]]
     assert invoke("info", tmp_path).stdout == f"{tmp_path.name} is a run\n"
 

@@ -1,0 +1,54 @@
+"""What it means that two run folders are the same run, and the command that makes one."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+ROOT = Path(__file__).parents[2]
+CASES = ROOT / "tests" / "cases"
+
+#: the same bytes in two runs of one case, whatever the number of threads and however often it was resumed
+EXACT = ("case.toml", "forces.csv", "energy.csv", "bodies.csv", "ice.pvd", "structures.vtu")
+
+
+def command(*arguments) -> list[str]:
+    return [sys.executable, "-m", "dilatedem.cli", *map(str, arguments)]
+
+
+def environment() -> dict[str, str]:
+    """Two threads even on a machine of one core; the package of this tree, whatever is installed."""
+    return {**os.environ, "NUMBA_NUM_THREADS": "2", "PYTHONPATH": str(ROOT)}
+
+
+def dilatedem(*arguments) -> subprocess.CompletedProcess:
+    """The command line in a process of its own."""
+    return subprocess.run(command(*arguments), capture_output=True, text=True, env=environment(), check=False)
+
+
+def assert_same_run(folder: Path, expected: Path) -> None:
+    """Every byte of the tables and snapshots, and every number of run.h5 and of the saved state."""
+    snapshots = sorted(path.relative_to(expected) for path in expected.glob("snapshots/*.vtu"))
+    assert sorted(path.relative_to(folder) for path in folder.glob("snapshots/*.vtu")) == snapshots
+    for name in (*EXACT, *snapshots):
+        assert (folder / name).read_bytes() == (expected / name).read_bytes(), f"{name} differs"
+    for name in ("run.h5", "restart.h5"):
+        found, wanted = numbers(folder / name), numbers(expected / name)
+        assert found.keys() == wanted.keys()
+        differing = [key for key in wanted if not np.array_equal(found[key], wanted[key], equal_nan=True)]
+        assert not differing, f"{name}: {differing} differ"
+
+
+def numbers(path: Path) -> dict[str, np.ndarray]:
+    """All datasets of an HDF5 file; of a list of pairs the rows in use (what lies beyond depends on when the list grew)."""
+    found: dict[str, np.ndarray] = {}
+    with h5py.File(path) as file:
+        file.visititems(lambda name, item: found.update({name: item[()]}) if isinstance(item, h5py.Dataset) else None)
+    in_use = int(found["pairs/count"][0]) if "pairs/count" in found else 0
+    whole = ("pairs/count", "pairs/frame", "pairs/limit")
+    return {
+        name: values[:in_use] if name.startswith("pairs/") and name not in whole else values for name, values in found.items()
+    }

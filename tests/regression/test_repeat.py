@@ -1,0 +1,38 @@
+"""The same case gives the same run: again, from its own case.toml, and on any number of threads."""
+
+import pytest
+from folders import CASES, assert_same_run, dilatedem
+
+from dilatedem import simulation
+from dilatedem.case.load import load
+
+
+@pytest.mark.parametrize("name", ["crowded", "mixed"])
+def test_a_second_run_is_the_same(name, request, tmp_path):
+    first = request.getfixturevalue(name)
+    simulation.run(load(CASES / f"{name}.toml"), tmp_path / name, quiet=True)
+    assert_same_run(tmp_path / name, first)
+
+
+@pytest.mark.parametrize("name", ["crowded", "mixed"])
+def test_two_threads_give_the_same_run(name, request, tmp_path):
+    one = request.getfixturevalue(name)
+    done = dilatedem("run", CASES / f"{name}.toml", "--out", tmp_path / name, "--threads", 2, "--quiet")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert_same_run(tmp_path / name, one)
+
+
+def test_the_case_file_of_a_run_repeats_it(crowded, tmp_path):
+    done = dilatedem("run", crowded / "case.toml", "--out", tmp_path / "again", "--quiet")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert_same_run(tmp_path / "again", crowded)
+
+
+def test_overwriting_leaves_nothing_of_the_run_before(mixed, tmp_path):
+    out = tmp_path / "out"
+    simulation.run(load(CASES / "crowded.toml", ["time.duration=0.5"]), out, quiet=True)
+    (out / "figures").mkdir()
+    (out / "figures" / "old.png").touch()
+    simulation.run(load(CASES / "mixed.toml"), out, overwrite=True, quiet=True)
+    assert_same_run(out, mixed)
+    assert not list((out / "figures").iterdir())

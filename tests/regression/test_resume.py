@@ -1,0 +1,124 @@
+"""A run that was stopped, by Ctrl-C, by a kill or by a fault of the machine, and resumed equals one that never was."""
+
+import json
+import signal
+import subprocess
+import time
+from pathlib import Path
+
+import pytest
+from folders import CASES, assert_same_run, command, dilatedem, environment
+
+from dilatedem import simulation
+from dilatedem.case.load import load
+from dilatedem.errors import CaseError, Interrupted
+from dilatedem.interruption import Interruption
+
+
+class AskedAfter(Interruption):
+    """Stands for a user who presses Ctrl-C after so many looks at the keyboard."""
+
+    looks = 0
+
+    @property
+    def asked(self) -> bool:
+        self.left -= 1
+        return self.left < 0
+
+    @asked.setter
+    def asked(self, value: bool) -> None:
+        self.left = self.looks
+
+
+def interrupt_after(monkeypatch, looks: int) -> None:
+    monkeypatch.setattr(simulation, "Interruption", type("Asked", (AskedAfter,), {"looks": looks}))
+
+
+@pytest.mark.parametrize(("name", "looks"), [("crowded", (0, 31, 60)), ("mixed", (17, 1, 25))])
+def test_a_run_interrupted_three_times_equals_one_that_was_not(name, looks, request, monkeypatch, tmp_path):
+    case, out = load(CASES / f"{name}.toml"), tmp_path / name
+    for number, count in enumerate(looks):
+        interrupt_after(monkeypatch, count)
+        with pytest.raises(Interrupted, match=r"interrupted at t = \d"):
+            simulation.run(case, out, resume=number > 0, quiet=True)
+        assert json.loads((out / "summary.json").read_text())["status"] == "interrupted"
+    monkeypatch.undo()
+    simulation.run(case, out, resume=True, quiet=True)
+    assert_same_run(out, request.getfixturevalue(name))
+    summary, expected = (json.loads((path / "summary.json").read_text()) for path in (out, request.getfixturevalue(name)))
+    for key in ("status", "message", "steps", "loads", "energy", "contact", "simulated_s"):
+        assert summary[key] == expected[key]
+
+
+def started(case: Path, out: Path) -> subprocess.Popen:
+    """A run in a process of its own that has passed its first checkpoint."""
+    process = subprocess.Popen(
+        command("run", case, "--out", out, "--quiet"), stderr=subprocess.PIPE, text=True, env=environment()
+    )
+    deadline = time.monotonic() + 300.0
+    while not (out / "restart.h5").exists():
+        assert process.poll() is None, process.stderr.read()
+        assert time.monotonic() < deadline, "no checkpoint within 5 minutes"
+        time.sleep(0.005)
+    return process
+
+
+def test_ctrl_c_saves_the_state_and_resume_completes_the_run(crowded, tmp_path):
+    out = tmp_path / "crowded"
+    process = started(CASES / "crowded.toml", out)
+    process.send_signal(signal.SIGINT)
+    said = process.communicate(timeout=60)[1]
+    assert process.returncode == 130
+    assert said.startswith("interrupted at t = ") and "--resume" in said and said.count("\n") == 1
+    summary = json.loads((out / "summary.json").read_text())
+    assert summary["status"] == "interrupted" and 0.0 < summary["simulated_s"] < 4.0
+
+    done = dilatedem("run", CASES / "crowded.toml", "--out", out, "--resume", "--quiet")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert_same_run(out, crowded)
+
+
+def test_a_killed_run_resumes_from_its_last_checkpoint(crowded, tmp_path):
+    out = tmp_path / "crowded"
+    process = started(CASES / "crowded.toml", out)
+    time.sleep(0.2)  # rows and snapshots past the checkpoint, which the resumed run writes again
+    process.kill()
+    process.communicate()
+    assert process.returncode == -signal.SIGKILL
+    assert json.loads((out / "summary.json").read_text())["status"] == "running"
+
+    done = dilatedem("run", CASES / "crowded.toml", "--out", out, "--resume", "--threads", 2, "--quiet")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert_same_run(out, crowded)
+
+
+def test_rows_and_snapshots_past_the_checkpoint_are_written_again(crowded, monkeypatch, tmp_path):
+    case, out = load(CASES / "crowded.toml"), tmp_path / "crowded"
+    interrupt_after(monkeypatch, 40)
+    with pytest.raises(Interrupted):
+        simulation.run(case, out, quiet=True)
+    monkeypatch.undo()
+    with open(out / "forces.csv", "ab") as forces:  # a kill in the middle of a row
+        forces.write(b"3.9,pile,1,2")
+    (out / "snapshots" / "ice_000011.vtu").write_text("half a snaps")
+    (out / "snapshots" / "ice_000012.vtu.tmp").write_text("half a snaps")
+    simulation.run(case, out, resume=True, quiet=True)
+    assert_same_run(out, crowded)
+
+
+def test_a_completed_run_may_be_resumed_and_stays_as_it_is(crowded, tmp_path):
+    out = tmp_path / "crowded"
+    simulation.run(load(CASES / "crowded.toml", ["time.duration=0.3"]), out, quiet=True)
+    before = {path: path.read_bytes() for path in out.rglob("*.*v*") if path.is_file()}
+    simulation.run(load(out / "case.toml"), out, resume=True, quiet=True)
+    assert {path: path.read_bytes() for path in before} == before
+
+
+def test_resuming_needs_a_run_with_a_saved_state_of_the_same_case(crowded, tmp_path):
+    with pytest.raises(CaseError, match="holds no run to resume"):
+        simulation.run(load(CASES / "crowded.toml"), tmp_path / "none", resume=True, quiet=True)
+    with pytest.raises(CaseError, match="is not the case given"):
+        simulation.run(load(CASES / "crowded.toml", ["contact.friction=0.2"]), crowded, resume=True, quiet=True)
+    (tmp_path / "case.toml").write_bytes((crowded / "case.toml").read_bytes())
+    with pytest.raises(CaseError, match="no checkpoint to resume from"):
+        simulation.run(load(CASES / "crowded.toml"), tmp_path, resume=True, quiet=True)
