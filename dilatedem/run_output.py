@@ -31,7 +31,7 @@ class Totals:
     initial_energy: float | None = None  # J
     largest_residual: float = 0.0  # J, over all rows of energy.csv
     largest_step_ratio: float = 0.0  # dt over the critical step of the open contacts, over all rows of energy.csv
-    wall_s: float = 0.0
+    wall_s: float = 0.0  # compiling included; both add up over the parts of a resumed run
     compile_s: float = 0.0
     peaks: dict = field(default_factory=dict)  # structure -> headline loads
     snapshots: list = field(default_factory=list)  # [time, file]
@@ -119,6 +119,7 @@ class RunOutput:
     def stop(self, message: str) -> None:
         """The simulation cannot go on: keep the last checkpoint, and the state that failed beside it."""
         self._flush()
+        self._note_wall_time()
         checkpoint.save(self._out / "stopped.h5", self._simulation.state.groups(), self._meta())
         self._write_archive()
         self._write_summary("stopped", message)
@@ -127,12 +128,14 @@ class RunOutput:
         """Everything up to now, in files that a later run can go on from."""
         self._flush()
         self._write_archive()
-        totals = self.totals
-        now = time.perf_counter()
-        totals.wall_s += now - self._began
-        self._began = now
+        self._note_wall_time()
         checkpoint.save(self._out / folder.CHECKPOINT, self._simulation.state.groups(), self._meta())
         self._write_summary(status, message)
+
+    def _note_wall_time(self) -> None:
+        now = time.perf_counter()
+        self.totals.wall_s += now - self._began
+        self._began = now
 
     def _flush(self) -> None:
         for table in self._tables.values():
@@ -249,13 +252,14 @@ class RunOutput:
         case, step = simulation.case, int(simulation.state.clock.step[0])
         terms = {f"{name}_J": value for name, value in simulation.energies().items()} if step else {}
         work = abs(terms.get("work_drag_J", 0.0))
+        stepping_s = totals.wall_s - totals.compile_s
         write_summary(self._out / folder.SUMMARY, {
             "status": status, "message": message, "title": case.title, "version": __version__, "versions": versions(),
             "seed": case.field.seed, "floes": simulation.model.floating, "steps": step, "dt_s": simulation.dt,
             "dt_critical_s": simulation.critical, "dt_over_critical": simulation.dt / simulation.critical,
             "dt_over_critical_of_open_contacts": totals.largest_step_ratio, "simulated_s": simulation.time_s,
             "duration_s": case.time.duration, "wall_s": totals.wall_s, "compile_s": totals.compile_s,
-            "steps_per_s": step / totals.wall_s if totals.wall_s > 0.0 else None, "threads": simulation.threads,
+            "steps_per_s": step / stepping_s if stepping_s > 0.0 else None, "threads": simulation.threads,
             "loads": {structure.name: _headline_loads(totals.peaks.get(structure.name)) for structure in self._structures},
             "energy": terms | {
                 "residual_J": totals.largest_residual, "residual_over_work": totals.largest_residual / work if work else None,

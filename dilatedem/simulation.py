@@ -237,7 +237,7 @@ def run(
         if not is_cached(advance):
             progress.message("compiling, once (about half a minute)")
         compile_kernels(threads)
-        output.totals.compile_s = time.perf_counter() - started
+        output.totals.compile_s += time.perf_counter() - started
         if not saved:
             _stop_on_fault(simulation, output, simulation.evaluate())
             output.observe()

@@ -14,6 +14,7 @@ from xml.sax.saxutils import quoteattr
 import numpy as np
 
 from dilatedem.geometry.polyhedron import Polyhedron, convex_hull, prism
+from dilatedem.numerics.frames import matrix_from_quaternion
 from dilatedem.output.atomic import replacing, write_text
 
 # Cell data of every snapshot: name -> (type, components).
@@ -66,7 +67,7 @@ class SnapshotWriter:
         self._write(path, position, orientation, _checked(cell_data, len(self._order)))
 
     def _write(self, path, position, orientation, cell_data: dict[str, np.ndarray]) -> None:
-        rotation = rotation_matrices(orientation)
+        rotation = matrix_from_quaternion(np.reshape(orientation, (-1, 4)))
         points = np.einsum("nij,nj->ni", rotation[self._owner], self._vertices)
         points += np.asarray(position)[self._owner]
         parts = [
@@ -161,17 +162,6 @@ def wrapped(position, size, periodic) -> np.ndarray:
         if periodic[axis]:
             position[:, axis] -= size[axis] * np.floor(position[:, axis] / size[axis] + 0.5)
     return position
-
-
-def rotation_matrices(orientation) -> np.ndarray:
-    """(n, 4) unit quaternions (w, x, y, z) as (n, 3, 3) matrices, body to world."""
-    w, x, y, z = np.asarray(orientation, dtype=float).reshape(-1, 4).T
-    rows = [
-        [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-        [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-        [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
-    ]
-    return np.moveaxis(np.array(rows), 2, 0)
 
 
 def _checked(cell_data: dict[str, np.ndarray], count: int) -> dict[str, np.ndarray]:

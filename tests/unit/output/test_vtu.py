@@ -9,13 +9,13 @@ import pytest
 from dilatedem.geometry.outer import outer_polyhedron
 from dilatedem.geometry.polyhedron import convex_hull, prism, volume
 from dilatedem.output.folder import snapshot_name
+from dilatedem.numerics.frames import matrix_from_quaternion
 from dilatedem.output.vtu import (
     PILE_SIDES,
     PLATE_THICKNESS,
     SnapshotWriter,
     pile_column,
     plane_plate,
-    rotation_matrices,
     wrapped,
     write_pvd,
     write_snapshot,
@@ -156,7 +156,7 @@ def _turn(q, v):
 
 
 def test_rotation_matrices_are_rotations(scene):
-    matrices = rotation_matrices(scene[2])
+    matrices = matrix_from_quaternion(scene[2])
     unit = np.broadcast_to(np.eye(3), matrices.shape)
     np.testing.assert_allclose(matrices @ np.moveaxis(matrices, 1, 2), unit, atol=1e-14)
     np.testing.assert_allclose(np.linalg.det(matrices), 1.0, rtol=1e-14)
@@ -189,7 +189,7 @@ def test_meshio_reads_the_same(tmp_path, scene):
         assert len(cell) == len(outers[number].faces)
         points = mesh.points[np.unique(np.concatenate(cell))]
         expected = outers[number].vertices.mean(axis=0)
-        middle = (points.mean(axis=0) - position[number]) @ rotation_matrices(orientation)[number]
+        middle = (points.mean(axis=0) - position[number]) @ matrix_from_quaternion(orientation)[number]
         np.testing.assert_allclose(middle, expected, atol=1e-12)
 
 

@@ -1,0 +1,31 @@
+"""The direction of the imports, as pyproject.toml states it ([tool.importlinter])."""
+
+import ast
+import os
+from pathlib import Path
+
+from importlinter.cli import lint_imports
+
+ROOT = Path(__file__).parents[2]
+PACKAGE = ROOT / "dilatedem"
+
+
+def test_imports_run_one_way(monkeypatch):
+    monkeypatch.chdir(ROOT)
+    monkeypatch.syspath_prepend(os.fspath(ROOT))
+    assert lint_imports(config_filename="pyproject.toml", no_cache=True) == 0, "see `lint-imports` for the imports at fault"
+
+
+def test_only_jit_knows_numba():
+    """A bare njit would have its cache in the wrong place, where stale machine code gives stale answers."""
+    found = []
+    for path in PACKAGE.rglob("*.py"):
+        if path == PACKAGE / "jit.py":
+            continue
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            names = [alias.name for alias in node.names] if isinstance(node, ast.Import) else []
+            if isinstance(node, ast.ImportFrom):
+                names = [node.module or ""]
+            if any(name.split(".")[0] in ("numba", "llvmlite") for name in names):
+                found.append(f"{path.relative_to(ROOT)}:{node.lineno}")
+    assert not found, "use the decorators of dilatedem.jit"

@@ -1,0 +1,56 @@
+"""Compiled code allocates nothing, and every function of it was compiled by the decorators of `dilatedem.jit`."""
+
+import importlib
+import pkgutil
+
+import numpy as np
+import pytest
+from numba.core.errors import NumbaError
+from numba.core.registry import CPUDispatcher
+
+import dilatedem
+from dilatedem.jit import kernel
+
+KERNEL_PACKAGES = ("numerics", "contact", "water", "motion")
+
+
+def compiled_functions() -> dict[str, CPUDispatcher]:
+    found = {}
+    for package in KERNEL_PACKAGES:
+        for module in pkgutil.walk_packages([f"{dilatedem.__path__[0]}/{package}"], f"dilatedem.{package}."):
+            for name, item in vars(importlib.import_module(module.name)).items():
+                if isinstance(item, CPUDispatcher) and item.py_func.__module__ == module.name:
+                    found[f"{module.name}.{name}"] = item
+    return found
+
+
+def test_every_kernel_is_compiled_without_the_runtime_that_allocates():
+    functions = compiled_functions()
+    assert len(functions) > 50 and "dilatedem.motion.step.advance" in functions
+    allocating = [name for name, function in functions.items() if function.targetoptions.get("_nrt", True)]
+    assert not allocating, "compile them by dilatedem.jit: kernel, device, item or shared_loop"
+
+
+def test_kernels_trade_no_exactness_for_speed_and_divide_like_numpy():
+    for name, function in compiled_functions().items():
+        assert not function.targetoptions.get("fastmath"), name
+        assert function.targetoptions.get("error_model") == "numpy", name
+        assert function.targetoptions.get("inline", "never") == "never", f'{name}: inline="always" loses writes'
+
+
+def test_a_kernel_that_allocates_does_not_compile():
+    @kernel
+    def copies(values):
+        return values.copy()[0]
+
+    with pytest.raises(NumbaError, match="NRT"):
+        copies(np.ones(3))
+
+
+def test_kernels_say_in_their_first_lines_what_they_do():
+    """Names that the method is made of carry a docstring; small private functions may go without."""
+    silent = [
+        name for name, function in compiled_functions().items()
+        if not function.py_func.__doc__ and not name.rsplit(".", 1)[1].startswith("_") and ".numerics." not in name
+    ]  # fmt: skip
+    assert len(silent) <= len(compiled_functions()) // 4, silent

@@ -1,0 +1,62 @@
+"""Each parallel loop does what its serial form does: all it writes, bit by bit, for any number of parts.
+
+A write through a NamedTuple that is lost in a parallel loop raises no error; this is where it would show.
+"""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from dilatedem.case.load import load
+from dilatedem.jit import Team
+from dilatedem.motion.stages import _collide_shared, _load_and_kick_shared
+from dilatedem.motion.step import advance
+from dilatedem.simulation import Simulation
+from dilatedem.state.clock import Status
+
+CROWDED = Path(__file__).parents[1] / "cases" / "crowded.toml"
+
+#: steps before the comparison, until floes press on each other and on the pile; and steps of the comparison
+APPROACH, COMPARED = 12_000, 40
+
+
+def advanced(threads: int, start: dict | None = None) -> Simulation:
+    simulation = Simulation.of_case(load(CROWDED), threads=threads)
+    if start is None:
+        simulation.evaluate()
+        assert simulation.advance(APPROACH) == Status.DONE
+        return simulation
+    for name, group in start.items():
+        setattr(simulation.state, name, type(group)(*(np.copy(field) for field in group)))
+    simulation._make_room()
+    assert simulation.advance(COMPARED) == Status.DONE
+    return simulation
+
+
+@pytest.fixture(scope="module")
+def start() -> dict:
+    simulation = advanced(1)
+    assert simulation.contacts >= 3
+    return simulation.state.groups()
+
+
+@pytest.mark.parametrize("parts", [2, 3, 7])
+def test_shared_loops_write_what_the_serial_loop_writes(start, parts):
+    alone, shared = advanced(1, start), advanced(parts, start)
+    count = int(alone.state.pairs.count[0])
+    for name, group in alone.state.groups().items():
+        for field, values in group._asdict().items():
+            other = getattr(shared.state.groups()[name], field)
+            rows = count if name == "pairs" and field not in ("count", "frame", "limit") else None
+            np.testing.assert_array_equal(other[:rows], values[:rows], err_msg=f"{name}.{field}")
+    # of the workspace, what both loops leave there
+    np.testing.assert_array_equal(shared.workspace.wet, alone.workspace.wet)
+    assert np.any(alone.state.bodies.velocity != start["bodies"].velocity)
+    assert np.any(alone.state.pairs.force[:count] != start["pairs"].force[:count])
+
+
+def test_the_shared_loops_are_those_that_were_compared():
+    """Guards against a comparison of the serial loops with themselves."""
+    assert any(Team.__name__ in str(signature[0]) for signature in advance.signatures)
+    assert _collide_shared.targetoptions["parallel"] and _load_and_kick_shared.targetoptions["parallel"]
