@@ -95,10 +95,10 @@ def closest_points(vertex, face_normal, shapes, pairs, k, a, b, offset):
         n = m
         v2 = dot(v, v)
         if n == 4 or v2 < TOUCHING * TOUCHING:
-            pairs.corners[k] = 0  # corners of an intersection are no start for a distance
-            depth, normal, pa, pb = core_penetration(
-                vertex, face_normal, shapes, a, b, offset, load(pairs.normal, k)
-            )
+            depth, normal, pa, pb = core_penetration(vertex, face_normal, shapes, a, b, offset, load(pairs.normal, k))
+            pairs.corners[k] = 0  # corners of an intersection are no start for a distance, but the patch wants to know the deepest
+            ca[k, 0], _ = farthest_vertex(vertex, a0, a1, normal)
+            cb[k, 0], _ = farthest_vertex(vertex, b0, b1, scale(-1.0, normal))
             return -depth, normal, pa, pb
         if v2 >= last:
             break

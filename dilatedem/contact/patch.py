@@ -19,6 +19,14 @@ EDGE_FACE, FACE_FACE = int(Mode.EDGE_FACE), int(Mode.FACE_FACE)
 
 
 
+#: distance, m, by which a feature may lie outside a face and still be on it. Where the normal leans a little from a face's own, the
+#: closest point is on the face's rim, *exactly* on the clipping line, and round-off would choose the mode; a micrometre is above the
+#: error of the distance search and below any detail of a floe.
+RIM = 1e-6
+
+ORIGIN = (0.0, 0.0, 0.0)
+
+
 @device
 def _point(kind_a, kind_b):
     """Mode of a contact at a point: the lower feature's corner on the other."""
@@ -38,10 +46,11 @@ def _clip_by_face(vertex, shapes, face, origin, t1, t2, turn, source, count, tar
         q = add(origin, load(vertex, shapes.loop[i + 1 if i + 1 < last else first]))
         pu, pv = dot(p, t1), dot(p, t2)
         eu, ev = turn * (dot(q, t1) - pu), turn * (dot(q, t2) - pv)
+        limit = ev * pu - eu * pv + RIM * (abs(eu) + abs(ev))
         if swapped:
-            count = clip_polygon(target, count, source, ev, -eu, 0.0, ev * pu - eu * pv)
+            count = clip_polygon(target, count, source, ev, -eu, 0.0, limit)
         else:
-            count = clip_polygon(source, count, target, ev, -eu, 0.0, ev * pu - eu * pv)
+            count = clip_polygon(source, count, target, ev, -eu, 0.0, limit)
         swapped = not swapped
         if count == 0:
             break
@@ -84,11 +93,11 @@ def _face_on_face(vertex, shapes, face_a, face_b, offset, normal, t1, t2, ra, pl
 
 
 @device
-def _edge_on_face(vertex, shapes, p, q, face, origin, turn, t1, t2, hp, hq, plane, sign):
-    """Part of the edge p q that penetrates a face: its interval of 0..1.
+def _edge_patch(vertex, shapes, p, q, rise, face, origin, side, normal, t1, t2, plane, narrow, overlap):
+    """Part of the edge p q that penetrates a face: mode (-1: none), point of application, overlap there, length [m].
 
-    p, q: ends, relative to a's centroid; hp, hq: heights of the edge's dilated surface there; sign: 1 where the edge is a's
-    (b's surface lies above it), -1 where it is b's. plane: the face's dilated surface; face < 0: it has no sides.
+    p, q: ends, relative to a's centroid; rise: height of the edge's dilated surface over its axis, along the normal; side: 1 where the edge
+    is a's (b's surface lies above it), -1 where it is b's; plane: the face's dilated surface, `_surface`; face < 0: it has no sides.
     """
     pu, pv = dot(p, t1), dot(p, t2)
     du, dv = dot(q, t1) - pu, dot(q, t2) - pv
@@ -99,15 +108,25 @@ def _edge_on_face(vertex, shapes, p, q, face, origin, turn, t1, t2, hp, hq, plan
             s = add(origin, load(vertex, shapes.loop[i]))
             e = add(origin, load(vertex, shapes.loop[i + 1 if i + 1 < last else first]))
             su, sv = dot(s, t1), dot(s, t2)
-            eu, ev = turn * (dot(e, t1) - su), turn * (dot(e, t2) - sv)
-            low, high = clip_interval(low, high, ev * du - eu * dv, ev * (pu - su) - eu * (pv - sv))
-            if high <= low:
-                return 1.0, 0.0
+            # seen along the normal a's faces run counter-clockwise, b's clockwise
+            eu, ev = -side * (dot(e, t1) - su), -side * (dot(e, t2) - sv)
+            rim = RIM * (abs(eu) + abs(ev))
+            low, high = clip_interval(low, high, ev * du - eu * dv, ev * (pu - su) - eu * (pv - sv) - rim)
     h0, hu, hv = plane
-    gap_p = sign * (h0 + hu * pu + hv * pv - hp)
-    gap_q = sign * (h0 + hu * (pu + du) + hv * (pv + dv) - hq)
+    gap_p = side * (h0 + hu * pu + hv * pv - dot(p, normal) - rise)
+    gap_q = side * (h0 + hu * (pu + du) + hv * (pv + dv) - dot(q, normal) - rise)
     low, high = clip_interval(low, high, gap_q - gap_p, gap_p)
-    return low, high
+    if high <= low:
+        return -1, ORIGIN, 0.0, 0.0
+    middle = 0.5 * (low + high)
+    centre = along(p, middle, sub(q, p))
+    depth = -(gap_p + (gap_q - gap_p) * middle)
+    # half-way between the edge's surface and the face's
+    point = along(centre, rise - 0.5 * side * depth, normal)
+    length = (high - low) * norm(sub(q, p))
+    if length < narrow:
+        return VERTEX_FACE, point, overlap, 1.0
+    return EDGE_FACE, point, depth, length
 
 
 @device
@@ -130,13 +149,13 @@ def _edge_along_edge(pa, qa, pb, qb, normal, ra, rb):
 
 @device
 def contact_patch(vertex, face_normal, shapes, corners, corner_a, corner_b, a, b, offset, normal, pa, pb, overlap, scratch):
-    """Mode of the contact of a and b, whether a has the lower feature, point of application, overlap there, size, sine of the edges' angle.
+    """Mode of the contact of a and b, whether a has the lower feature, point of application, overlap there, size, sine of two edges.
 
     vertex (v, 3), face_normal (f, 3): turned to world directions; corner_a, corner_b (4,): closest corners; offset, normal, pa, pb:
     centroid of b, unit normal, witness points on the cores, all relative to a's centroid [m]; overlap > 0 [m];
-    scratch (2, MOST_CORNERS, 3). Features rank corner, edge, face. overlap: the
-    deepest; for a patch, what holds at its centroid is returned. size: length [m] or area [m2] of the penetrating part, 1 for a
-    point. b may be a half space (`pb` is then on its plane). Liu 2015, section 2.
+    scratch (2, MOST_CORNERS, 3). Features rank corner, edge, face. overlap: the deepest; for a patch, what holds at its centroid
+    is returned. size: length [m] or area [m2] of the penetrating part, 1 for a point. b may be a half space (`pb` is then on its
+    plane). Liu 2015, section 2.
     """
     ra, rb = shapes.radius[a], shapes.radius[b]
     middle = along(scale(0.5, add(pa, pb)), 0.5 * (ra - rb), normal)
@@ -165,34 +184,20 @@ def contact_patch(vertex, face_normal, shapes, corners, corner_a, corner_b, a, b
             return VERTEX_FACE, ra <= rb, point, overlap, 1.0, 0.0
     elif kind_a == EDGE and kind_b == FACE:
         p, q = load(vertex, i), load(vertex, j)
-        hp, hq = dot(p, normal) + ra, dot(q, normal) + ra
-        low, high = _edge_on_face(vertex, shapes, p, q, m, offset, -1.0, t1, t2, hp, hq, plane, 1.0)
-        if high > low:
-            centre = along(p, 0.5 * (low + high), sub(q, p))
-            u, v = dot(centre, t1), dot(centre, t2)
-            ha, hb = dot(centre, normal) + ra, plane[0] + plane[1] * u + plane[2] * v
-            point = along(along(scale(u, t1), v, t2), 0.5 * (ha + hb), normal)
-            mode, length, depth = _line((high - low) * norm(sub(q, p)), narrow, ha - hb, overlap)
+        mode, point, depth, length = _edge_patch(vertex, shapes, p, q, ra, m, offset, 1.0, normal, t1, t2, plane, narrow, overlap)
+        if mode >= 0:
             return mode, True, point, depth, length, 0.0
     elif kind_a == FACE and kind_b == EDGE:
         p, q = add(offset, load(vertex, m)), add(offset, load(vertex, n))
-        hp, hq = dot(p, normal) - rb, dot(q, normal) - rb
-        plane = _surface(vertex, face_normal, shapes, i, (0.0, 0.0, 0.0), normal, t1, t2, ra)
-        low, high = _edge_on_face(
-            vertex, shapes, p, q, i, (0.0, 0.0, 0.0), 1.0, t1, t2, hp, hq, plane, -1.0
-        )
-        if high > low:
-            centre = along(p, 0.5 * (low + high), sub(q, p))
-            u, v = dot(centre, t1), dot(centre, t2)
-            ha, hb = plane[0] + plane[1] * u + plane[2] * v, dot(centre, normal) - rb
-            point = along(along(scale(u, t1), v, t2), 0.5 * (ha + hb), normal)
-            mode, length, depth = _line((high - low) * norm(sub(q, p)), narrow, ha - hb, overlap)
+        plane = _surface(vertex, face_normal, shapes, i, ORIGIN, normal, t1, t2, ra)
+        mode, point, depth, length = _edge_patch(vertex, shapes, p, q, -rb, i, ORIGIN, -1.0, normal, t1, t2, plane, narrow, overlap)
+        if mode >= 0:
             return mode, False, point, depth, length, 0.0
     elif kind_a == VERTEX and kind_b == FACE:
         if half_space or _inside(vertex, shapes, pa, m, offset, t1, t2, -1.0):
             return VERTEX_FACE, True, middle, overlap, 1.0, 0.0
     elif kind_a == FACE and kind_b == VERTEX:
-        if _inside(vertex, shapes, pb, i, (0.0, 0.0, 0.0), t1, t2, 1.0):
+        if _inside(vertex, shapes, pb, i, ORIGIN, t1, t2, 1.0):
             return VERTEX_FACE, False, middle, overlap, 1.0, 0.0
     elif kind_a == EDGE and kind_b == EDGE:
         mode, point, depth, size, sine = _edges(
@@ -216,14 +221,6 @@ def contact_patch(vertex, face_normal, shapes, corners, corner_a, corner_b, a, b
 
 
 @device
-def _line(length, narrow, depth, overlap):
-    """An edge on a face, or a corner where it is too short to be one: mode, size, and the overlap that counts."""
-    if length >= narrow:
-        return EDGE_FACE, length, depth
-    return VERTEX_FACE, 1.0, overlap
-
-
-@device
 def _inside(vertex, shapes, point, face, origin, t1, t2, turn):
     """Whether a point projects into a face (turn as in `_clip_by_face`)."""
     first, last = shapes.loop_start[face], shapes.loop_start[face + 1]
@@ -231,7 +228,8 @@ def _inside(vertex, shapes, point, face, origin, t1, t2, turn):
         p = add(origin, load(vertex, shapes.loop[i]))
         q = add(origin, load(vertex, shapes.loop[i + 1 if i + 1 < last else first]))
         e, s = sub(q, p), sub(point, p)
-        if turn * (dot(e, t1) * dot(s, t2) - dot(e, t2) * dot(s, t1)) < 0.0:
+        eu, ev = dot(e, t1), dot(e, t2)
+        if turn * (eu * dot(s, t2) - ev * dot(s, t1)) < -RIM * (abs(eu) + abs(ev)):
             return False
     return True
 

@@ -1,0 +1,82 @@
+"""Two dilated cores that a test puts where it wants them, and what the contact kernels say about them."""
+
+from typing import NamedTuple
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from dilatedem.geometry.polyhedron import Polyhedron
+from dilatedem.geometry.shapes import BodyShape, pack_shapes
+from dilatedem.state.bodies import bodies_at_rest
+from dilatedem.state.modes import Mode
+from dilatedem.state.pairs import empty_pairs
+from dilatedem.state.setting import Surroundings
+from dilatedem.state.workspace import MOST_CORNERS
+from tests.kernels import distance_of_pair, patch_of_pair
+
+
+class Closest(NamedTuple):
+    """Signed distance of the cores [m], unit normal from a to b, witness points (3,) in world coordinates."""
+
+    distance: float
+    normal: np.ndarray
+    on_a: np.ndarray
+    on_b: np.ndarray
+
+
+class Patch(NamedTuple):
+    mode: Mode
+    point: np.ndarray  # (3,) world coordinates, m
+    overlap: float  # m
+    size: float  # m or m2
+
+
+class PairInPlace:
+    """Cores a and b with their dilated radii [m]; period (2,) [m] of the domain, 0 = not periodic."""
+
+    def __init__(self, core_a: Polyhedron, core_b: Polyhedron, radii=(0.04, 0.04), period=(0.0, 0.0)):
+        self.cores = core_a, core_b
+        self.shapes = pack_shapes([BodyShape(c, r, None, None) for c, r in zip(self.cores, radii, strict=True)], [])
+        self.bodies = bodies_at_rest(2)
+        self.surroundings = Surroundings(0.0, False, 1025.0, 0.0, 0.0, 0.0, 0.0, *map(float, period))
+        self._vertex, self._face_normal = self.shapes.vertex.copy(), self.shapes.face_normal.copy()
+        self._scratch = np.zeros((2, MOST_CORNERS, 3))
+        self.forget()
+
+    def forget(self) -> None:
+        """Start cold: no corners, no normal of an earlier evaluation."""
+        self.pairs = empty_pairs(1)
+        self.pairs.count[0], self.pairs.b[0] = 1, 1
+
+    def place(self, body: int, position, rotation: Rotation | None = None) -> None:
+        self.bodies.position[body] = position
+        x, y, z, w = (rotation or Rotation.identity()).as_quat()
+        self.bodies.orientation[body] = w, x, y, z
+
+    def rotation(self, body: int) -> Rotation:
+        return Rotation.from_quat(np.roll(self.bodies.orientation[body], -1))
+
+    def vertices(self, body: int) -> np.ndarray:
+        """Core vertices (n, 3) in world coordinates."""
+        return self.rotation(body).apply(self.cores[body].vertices) + self.bodies.position[body]
+
+    def closest(self) -> Closest:
+        distance, normal, pa, pb, _ = self._evaluate()
+        origin = self.bodies.position[0]
+        return Closest(distance, np.array(normal), origin + pa, origin + pb)
+
+    def patch(self) -> Patch | None:
+        """None where the dilated bodies are apart."""
+        distance, normal, pa, pb, offset = self._evaluate()
+        overlap = self.shapes.radius.sum() - distance
+        if overlap <= 0.0:
+            return None
+        mode, _, point, depth, size, _ = patch_of_pair(
+            self.shapes, self.pairs, self._vertex, self._face_normal, 0, offset, normal, pa, pb, overlap, self._scratch
+        )
+        return Patch(Mode(mode), self.bodies.position[0] + point, depth, size)
+
+    def _evaluate(self):
+        return distance_of_pair(
+            self.shapes, self.surroundings, self.bodies, self.pairs, self._vertex, self._face_normal, 0
+        )

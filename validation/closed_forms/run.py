@@ -1,0 +1,76 @@
+"""Regenerate the table of validation/README.md: run every case file of this folder and set its results against their closed forms.
+
+    python -m validation.closed_forms.run
+
+from the root of the repository. The closed forms, and what is read from each case, are those of tests/verification.
+"""
+
+import importlib
+import time
+from pathlib import Path
+
+import dilatedem
+from tests.verification.comparison import CASES, Comparison
+
+README = Path(__file__).parents[1] / "README.md"
+START, END = "<!-- table: written by validation/closed_forms/run.py -->", "<!-- end of the table -->"
+
+#: module of tests/verification -> what the closed form is about
+FORMS = {
+    "test_floating_box": "Floating box",
+    "test_drift": "Drift from rest",
+    "test_spin_decay": "Spin decay",
+    "test_torque_free_box": "Torque-free box",
+    "test_hertz_impact": "Hertz impact",
+    "test_chung_ooi_normal": "Chung & Ooi (2011), tests 1-3",
+    "test_chung_ooi_oblique": "Chung & Ooi (2011), tests 4-8",
+    "test_incline": "Incline",
+    "test_collision": "Momentum of a collision",
+    "test_forces_by_mode": "Force by contact mode at 0.1 mm overlap",
+}
+
+
+def number(value: float) -> str:
+    """Six significant digits, short."""
+    return "0" if value == 0 else f"{value:.6g}"
+
+
+def row(comparison: Comparison) -> str:
+    case = f"[{comparison.case}](closed_forms/{comparison.case}.toml)"
+    verdict = "" if comparison.holds else " **fails**"
+    cells = (
+        case,
+        comparison.quantity,
+        number(comparison.target),
+        number(comparison.result),
+        f"{comparison.error:.1e}",
+        f"{comparison.tolerance:.1e}{verdict}",
+    )
+    return "| " + " | ".join(cells) + " |"
+
+
+def table() -> str:
+    """The whole table in Markdown, one section for each closed form."""
+    lines = [f"dilatedem {dilatedem.__version__}. Error: relative to the target, or to the scale of the quantity where the target is 0."]
+    for module, title in FORMS.items():
+        started = time.perf_counter()
+        comparisons = importlib.import_module(f"tests.verification.{module}").compare()
+        print(f"{title}: {len(comparisons)} results, {time.perf_counter() - started:.1f} s", flush=True)
+        lines += ["", f"### {title}", "", f"Equations: [{module}.py](../tests/verification/{module}.py)", ""]
+        lines += ["| case | quantity | target | result | error | allowed |", "| --- | --- | ---: | ---: | ---: | ---: |"]
+        lines += [row(comparison) for comparison in comparisons]
+    return "\n".join(lines)
+
+
+def main() -> None:
+    before, rest = README.read_text(encoding="utf-8").split(START)
+    after = rest.split(END)[1]
+    README.write_text(f"{before}{START}\n\n{table()}\n\n{END}{after}", encoding="utf-8")
+    covered = {path.stem for path in CASES.glob("*.toml")}
+    missing = {stem for stem in covered if f"closed_forms/{stem}.toml" not in README.read_text(encoding="utf-8")}
+    if missing:
+        raise SystemExit(f"{README}: no row for {', '.join(sorted(missing))}")
+
+
+if __name__ == "__main__":
+    main()
