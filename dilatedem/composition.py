@@ -166,6 +166,7 @@ def build_model(case: Case, scene: Scene) -> Model:
     shapes = [body.shape for body in scene.bodies]
     normals = [np.array(plane.normal) / np.linalg.norm(plane.normal) for plane in planes]
     water, periodic = case.water, _periodic(case)
+    _require_one_image(case, scene, periodic)
     current = water.velocity if water.enabled else (0.0, 0.0)
     return Model(
         floating=len(shapes),
@@ -180,6 +181,25 @@ def build_model(case: Case, scene: Scene) -> Model:
             water.drag_moment_coefficient, *np.where(periodic, case.domain.size, 0.0).tolist(),
         ),
     )  # fmt: skip
+
+
+def _require_one_image(case: Case, scene: Scene, periodic: tuple[bool, bool]) -> None:
+    """A pair of bodies may meet in one periodic image only. Raises CaseError where a period is too short for that."""
+    reaches = sorted((_reach(body.shape) for body in scene.bodies), reverse=True)
+    partners = [*reaches[1:2], *(structure.radius for structure in scene.structures if structure.kind == "pile")]
+    if not partners:
+        return
+    least = 2.0 * (reaches[0] + max(partners))
+    for axis, wraps in enumerate(periodic):
+        if wraps and case.domain.size[axis] <= least:
+            raise CaseError(
+                f"domain.size.{axis} = {case.domain.size[axis]:g}: is periodic and must be more than {least:.3g} m, or the two largest "
+                "bodies could meet on both sides at once"
+            )
+
+
+def _reach(shape: BodyShape) -> float:
+    return float(np.linalg.norm(shape.core.vertices, axis=1).max()) + shape.radius
 
 
 def ordered_structures(scene: Scene) -> list[Structure]:

@@ -107,7 +107,7 @@ class RunOutput:
             self._write_bodies()
         if self._snapshots.is_due(step):
             self._write_snapshot()
-        if step > 0 and not last and self._checkpoints.is_due(step):
+        if not last and self._checkpoints.is_due(step):
             self._save("running")
 
     def complete(self) -> None:
@@ -131,6 +131,11 @@ class RunOutput:
         self._note_wall_time()
         checkpoint.save(self._out / folder.CHECKPOINT, self._simulation.state.groups(), self._meta())
         self._write_summary(status, message)
+
+    def note_compiling(self, seconds: float) -> None:
+        """Count the time that was spent on the kernels before this output was opened."""
+        self.totals.wall_s += seconds
+        self.totals.compile_s += seconds
 
     def _note_wall_time(self) -> None:
         now = time.perf_counter()

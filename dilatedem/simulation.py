@@ -230,19 +230,31 @@ def run(
     simulation = Simulation.of_case(case, threads=threads)
     saved = _load_checkpoint(out, case, simulation) if resume else None
     steps = total_steps(case, simulation.dt)
-    output = RunOutput(simulation, out, saved) if saved else RunOutput.fresh(simulation, out)
-    with Interruption() as interruption, Progress(case.time.duration, quiet) as progress, output:
-        started = time.perf_counter()
+    with Progress(case.time.duration, quiet) as progress:
         progress.message(_headline(simulation, steps, layer))
-        if not is_cached(advance):
-            progress.message("compiling, once (about half a minute)")
-        compile_kernels(threads)
-        output.totals.compile_s += time.perf_counter() - started
-        if not saved:
-            _stop_on_fault(simulation, output, simulation.evaluate())
-            output.observe()
-        _loop(simulation, output, steps, progress, interruption)
+        compile_s = _compile(threads, progress)
+        with (
+            Interruption() as interruption,
+            RunOutput(simulation, out, saved) if saved else RunOutput.fresh(simulation, out) as output,
+        ):
+            output.note_compiling(compile_s)
+            if not saved:
+                _stop_on_fault(simulation, output, simulation.evaluate())
+                output.observe()
+            _loop(simulation, output, steps, progress, interruption)
     return out
+
+
+def _compile(threads: int, progress: Progress) -> float:
+    """Have the kernels ready before any file is touched: Ctrl-C ends this at once, with nothing to save. Returns the time, s."""
+    started = time.perf_counter()
+    if not is_cached(advance):
+        progress.message("compiling, once (about half a minute)")
+    try:
+        compile_kernels(threads)
+    except KeyboardInterrupt:
+        raise Interrupted("interrupted while compiling; no file was touched") from None
+    return time.perf_counter() - started
 
 
 def _loop(simulation: Simulation, output: RunOutput, steps: int, progress: Progress, interruption: Interruption) -> None:

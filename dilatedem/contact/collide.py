@@ -125,7 +125,7 @@ def collide(k, dt, shapes, vertex, face_normal, solids, bodies, pairs, contact, 
     slip, slipped = slide(before, scale(dt, slid), shear_stiffness, contact.friction * normal_force)
     force = along(scale(normal_force, normal), -shear_stiffness, slip)
 
-    # what the step cost, as trapezoids in time: the kinetic energy of the Verlet steps changes by just these
+    # what the step cost, as trapezoids in time: the kinetic energy of the Verlet steps changes by these, up to dt^2/(4 m) |dF|^2
     elastic_power = elastic * approach
     damping_power = (normal_force - elastic) * approach
     held = shear_stiffness * norm(slip)

@@ -20,8 +20,8 @@ EDGE_FACE, FACE_FACE = int(Mode.EDGE_FACE), int(Mode.FACE_FACE)
 
 
 #: distance, m, by which a feature may lie outside a face and still be on it. Where the normal leans a little from a face's own, the
-#: closest point is on the face's rim, *exactly* on the clipping line, and round-off would choose the mode; a micrometre is above the
-#: error of the distance search and below any detail of a floe.
+#: closest point is on the face's rim, *exactly* on the clipping line, and round-off would choose the mode; a micrometre is above
+#: the error of the distance search and below any detail of a floe.
 RIM = 1e-6
 
 ORIGIN = (0.0, 0.0, 0.0)
@@ -96,8 +96,9 @@ def _face_on_face(vertex, shapes, face_a, face_b, offset, normal, t1, t2, ra, pl
 def _edge_patch(vertex, shapes, p, q, rise, face, origin, side, normal, t1, t2, plane, narrow, overlap):
     """Part of the edge p q that penetrates a face: mode (-1: none), point of application, overlap there, length [m].
 
-    p, q: ends, relative to a's centroid; rise: height of the edge's dilated surface over its axis, along the normal; side: 1 where the edge
-    is a's (b's surface lies above it), -1 where it is b's; plane: the face's dilated surface, `_surface`; face < 0: it has no sides.
+    p, q: ends, relative to a's centroid; rise: height of the edge's dilated surface over its axis, along the normal; side: 1 where
+    the edge is a's (b's surface lies above it), -1 where it is b's; plane: the face's dilated surface, `_surface`; face < 0: it has
+    no sides.
     """
     pu, pv = dot(p, t1), dot(p, t2)
     du, dv = dot(q, t1) - pu, dot(q, t2) - pv
@@ -149,7 +150,7 @@ def _edge_along_edge(pa, qa, pb, qb, normal, ra, rb):
 
 @device
 def contact_patch(vertex, face_normal, shapes, corners, corner_a, corner_b, a, b, offset, normal, pa, pb, overlap, scratch):
-    """Mode of the contact of a and b, whether a has the lower feature, point of application, overlap there, size, sine of two edges.
+    """Mode of the contact of a and b, whether a has the lower feature, point of application, overlap, size, sine of two edges.
 
     vertex (v, 3), face_normal (f, 3): turned to world directions; corner_a, corner_b (4,): closest corners; offset, normal, pa, pb:
     centroid of b, unit normal, witness points on the cores, all relative to a's centroid [m]; overlap > 0 [m];

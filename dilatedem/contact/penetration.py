@@ -1,7 +1,8 @@
 """How deep two intersecting cores are in each other: the shortest of all separating translations (exact for polyhedra).
 
 The translation is normal to a face of a, a face of b, or to an edge of each. Rare (the overlap has passed both dilated radii),
-so all axes are tried. The depth grows continuously from 0 where the cores touch, and the normal goes on from that of the distance.
+so all axes are tried. The depth grows continuously from 0 where the cores touch. The normal goes on from that of the distance where
+a face is involved; where corners or edges meet it may turn at once to the shortest axis.
 """
 
 from math import sqrt
@@ -48,8 +49,8 @@ def _support_centre(vertex, first, last, d, slack):
 def core_penetration(vertex, face_normal, shapes, a, b, offset, previous):
     """Depth [m], unit normal from a to b, and points on a and b at that depth along the normal.
 
-    Vectors relative to a's centroid. previous: the pair's last normal (zero if unknown); where two axes are equally short, or the
-    cores are too thin to have any (points, segments in line), it decides, so that the normal never flips.
+    Vectors relative to a's centroid. previous: the pair's last normal (zero if unknown); where both senses of an axis are equally
+    short, or the cores are too thin to have any (points, segments in line), it decides, so that the normal never flips.
     """
     a0, a1 = shapes.vertex_start[a], shapes.vertex_start[a + 1]
     b0, b1 = shapes.vertex_start[b], shapes.vertex_start[b + 1]

@@ -1,7 +1,7 @@
 """Motion of one body: velocity Verlet in translation, its counterpart with quaternions in rotation.
 
-Both are second order, also under velocity-dependent forces: those see a velocity predicted for the same instant. The work of every
-force over a step is then exactly force x velocity x dt, so that the ledger closes. Rotation keeps the angular momentum in
+Both are second order, also under velocity-dependent forces: those see a velocity predicted for the same instant. From half step to
+half step a force's work is then exactly force x velocity x dt, so that the ledger closes. Rotation keeps the angular momentum in
 world axes as its state: without torque |L| cannot change.
 """
 

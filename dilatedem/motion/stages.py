@@ -15,9 +15,8 @@ TOO_FAST, TOO_DEEP = int(Status.TOO_FAST), int(Status.TOO_DEEP)
 
 #: a body that moves farther than this share of the pair list's limit in one step has left the realm of the step size
 LONGEST_MOVE = 0.1
-#: overlap, in units of the sum of both dilated radii, past which the run stops: there the cores are as deep in each other as the
-#: dilations are thick
-DEEPEST = 2.0
+#: overlap, in units of the smaller dilated radius of the two, past which the run stops: rounded edges mean nothing any more
+DEEPEST = 4.0
 
 
 @item
@@ -92,7 +91,7 @@ def collide_pairs(team, count, dt, model, bodies, pairs, workspace):
 
 @device
 def _load_and_kick_block(block, blocks, floating, dt, hulls, solids, surroundings, bodies, workspace):
-    """All loads on one of `blocks` equal parts of the bodies, and the second half of their kick; dt = 0 only evaluates the loads."""
+    """All loads on one of `blocks` equal parts of the bodies, and the second half of their kick; dt = 0: the loads alone."""
     first, last = floating * block // blocks, floating * (block + 1) // blocks
     if surroundings.water:
         submerge(first, last, hulls, bodies, workspace, block)
@@ -133,10 +132,11 @@ def too_deep(count, shapes, pairs, workspace, clock):
     """Whether some overlap is past what the method can mean; status and culprits go to `clock`."""
     for w in range(count):
         k = workspace.awake[w]
-        limit = DEEPEST * (shapes.radius[pairs.a[k]] + shapes.radius[pairs.b[k]])
-        if pairs.overlap[k] > limit:
+        a, b = pairs.a[k], pairs.b[k]
+        radius = shapes.radius[a] if shapes.kind[b] != 0 else min(shapes.radius[a], shapes.radius[b])
+        if pairs.overlap[k] > DEEPEST * radius:
             clock.status[0] = TOO_DEEP
-            clock.culprit[0], clock.culprit[1] = pairs.a[k], pairs.b[k]
+            clock.culprit[0], clock.culprit[1] = a, b
             clock.measure[0] = pairs.overlap[k]
             return True
     return False

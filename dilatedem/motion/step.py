@@ -15,7 +15,8 @@ def advance(team, model, bodies, pairs, spare, cells, workspace, ledger, loads, 
     """Advance all bodies by up to `steps` steps of dt [s]; returns a `Status`, its culprit in `clock`.
 
     team: `jit.Alone` or `jit.Team`. The method of Liu, Long & Ji (2015): move, meet, float. Bodies hold positions, velocities and
-    loads of one instant, before and after; a step of dt = 0 moves nothing and only evaluates the loads, as a run needs at its start.
+    loads of one instant, before and after; a step of dt = 0 moves nothing and only evaluates the loads, as a run needs at its
+    start.
     """
     status = DONE
     for _ in range(steps):

@@ -1,7 +1,7 @@
 """The critical time step: how stiff contacts are against how light the bodies are at the point of contact (physics 6).
 
-Before a run nothing touches yet, so the stiffest contact that each body can have is taken; during a run `assembled_frequency` adds up the
-contacts there are.
+Before a run nothing touches yet, so two contacts are laid out for each body: its largest face at its worst corner, and a corner
+hit at a likely speed. During a run `assembled_frequency` adds up the contacts there are.
 """
 
 from math import pi, sqrt
@@ -21,10 +21,12 @@ STEPS_PER_CONTACT = 8.0
 
 
 def critical_step(model, bodies) -> float:
-    """Largest stable time step [s] of the stiffest contact that any body can have.
+    """Time step [s] to stay well below, estimated for one face and one corner contact of every body; docs/theory.md has its limits.
 
     A pair's 1/m_eff is the sum over both bodies, so omega^2 = k/m_eff is at most twice the largest k/m' of one body, with
-    1/m' = 1/m + (r x n).I^-1.(r x n) at the worst corner; damping shortens the step by sqrt(1 + xi^2) - xi. Infinite without bodies.
+    1/m' = 1/m + (r x n).I^-1.(r x n) at the worst corner; damping shortens the step by sqrt(1 + xi^2) - xi, xi the damping
+    coefficient. Friction springs, crossing edges and contacts that act together are left to the share of it that is taken.
+    Infinite without bodies.
     """
     shapes, solids, damping = model.shapes, model.solids, model.contact.damping
     free = np.flatnonzero(solids.inverse_mass > 0.0)
@@ -93,9 +95,10 @@ def _mobility(i, solids, orientation, lever, normal):
 
 @kernel
 def assembled_frequency(model, bodies, pairs, stiffness):
-    """Upper bound of the highest angular frequency [rad/s] of the contacts that are open now.
+    """Upper bound of the highest angular frequency [rad/s] of the normal springs that are open now (friction springs left out).
 
-    stiffness (n,): workspace. A body's contacts add up to s = sum k_tan/m'; no mode is faster than sqrt(2 max s), by Gershgorin.
+    stiffness (n,): workspace. A body's contacts add up to s = sum c k_tan/m', c = 2, or 1 where the other side is held; no mode is
+    faster than sqrt(max s), as (u_a x_a + u_b x_b)^2 <= 2 (u_a x_a)^2 + 2 (u_b x_b)^2 for each contact.
     """
     for i in range(len(stiffness)):
         stiffness[i] = 0.0

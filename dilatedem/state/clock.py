@@ -19,7 +19,7 @@ class Clock(NamedTuple):
     step: np.ndarray  # (1,) steps done
     status: np.ndarray  # (1,) Status
     culprit: np.ndarray  # (2,) bodies at fault, -1 = none
-    measure: np.ndarray  # (1,) how far off: m
+    measure: np.ndarray  # (1,) the move or the overlap at fault, m
 
 
 def clock_at_start() -> Clock:

@@ -38,10 +38,10 @@ class Pairs(NamedTuple):
     point: np.ndarray  # (m, 3) m, from the centroid of a
     arm: np.ndarray  # (m, 3) m, from the centroid of b to the same point
     normal_force: np.ndarray  # (m,) N
-    size: np.ndarray  # (m,) length or area of the patch, m or m2
+    size: np.ndarray  # (m,) length or area of the patch, m or m2; 1 for a contact at a point
     loss_damping: np.ndarray  # (m,) J lost in the last step
     loss_friction: np.ndarray  # (m,) J lost in the last step
-    gain_law: np.ndarray  # (m,) J made in the last step by the law's own change of stiffness
+    gain_law: np.ndarray  # (m,) J made in the last step by the laws: more stored than the bodies have paid for
 
 
 _WIDTH = {"corner_a": SIMPLEX, "corner_b": SIMPLEX, "normal": 3, "slip": 3, "force": 3, "point": 3, "arm": 3}

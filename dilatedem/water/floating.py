@@ -12,10 +12,10 @@ from dilatedem.numerics.rotation import rotation_matrix
 
 @device
 def submerged_prism(z, nx, ny, nz, plan, height, body):
-    """A right prism cut by the water level through its sides only; valid False where top or bottom is cut, too.
+    """A right prism cut by the water level through its sides only; valid False where top or bottom is cut, or all is dry or wet.
 
-    z: height of the centroid [m]; (nx, ny, nz): world's up in the body frame; plan (m, 8), height (m, 2): see `Hulls`. Returns valid,
-    volume [m3], centre of buoyancy (x, y, z) in the body frame [m], wetted area [m2].
+    z: height of the centroid [m]; (nx, ny, nz): world's up in the body frame; plan (m, 8), height (m, 2): see `Hulls`. Returns
+    valid, volume [m3], centre of buoyancy (x, y, z) in the body frame [m], wetted area [m2].
     """
     if nz <= 0.0:
         return False, 0.0, 0.0, 0.0, 0.0, 0.0
@@ -99,8 +99,8 @@ def submerged_polyhedron(z, nx, ny, nz, hulls, body, works, thread):
 def submerge(first, last, hulls, bodies, workspace, thread):
     """Submerged volume, centre of buoyancy (body frame) and wetted area of bodies first..last-1, to their rows of `workspace.wet`.
 
-    Two passes, the closed form and then what it leaves (volume -1); arrays are named once, outside the loops: a reference counted per
-    floe costs more than the closed form.
+    Two passes, the closed form and then what it leaves (volume -1); arrays are named once, outside the loops: a reference counted
+    per floe costs more than the closed form.
     """
     q, wet, position = bodies.orientation, workspace.wet, bodies.position
     prism, plan, height = hulls.prism, hulls.plan, hulls.height

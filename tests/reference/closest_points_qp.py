@@ -16,7 +16,7 @@ def closest_points(a: np.ndarray, b: np.ndarray) -> tuple[float, np.ndarray, np.
     0 where they intersect; the points then mean nothing.
     """
     difference = (b[None] - a[:, None]).reshape(-1, 3)
-    scale = np.abs(difference).max()
+    scale = np.abs(difference).max() or 1.0
     matrix = np.vstack((difference.T / scale, np.ones(len(difference))))
     weight, _ = nnls(matrix, np.array([0.0, 0.0, 0.0, 1.0]), maxiter=100 * len(difference))
     weight = (weight / weight.sum()).reshape(len(a), len(b))

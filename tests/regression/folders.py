@@ -49,6 +49,4 @@ def numbers(path: Path) -> dict[str, np.ndarray]:
         file.visititems(lambda name, item: found.update({name: item[()]}) if isinstance(item, h5py.Dataset) else None)
     in_use = int(found["pairs/count"][0]) if "pairs/count" in found else 0
     whole = ("pairs/count", "pairs/frame", "pairs/limit")
-    return {
-        name: values[:in_use] if name.startswith("pairs/") and name not in whole else values for name, values in found.items()
-    }
+    return {name: values[:in_use] if name.startswith("pairs/") and name not in whole else values for name, values in found.items()}

@@ -50,13 +50,17 @@ def test_a_run_interrupted_three_times_equals_one_that_was_not(name, looks, requ
         assert summary[key] == expected[key]
 
 
+def saved_time(out: Path) -> float:
+    """Simulated time of the last saved state, s; summary.json is written right after it."""
+    summary = out / "summary.json"
+    return json.loads(summary.read_text())["simulated_s"] if summary.exists() else 0.0
+
+
 def started(case: Path, out: Path) -> subprocess.Popen:
-    """A run in a process of its own that has passed its first checkpoint."""
-    process = subprocess.Popen(
-        command("run", case, "--out", out, "--quiet"), stderr=subprocess.PIPE, text=True, env=environment()
-    )
+    """A run in a process of its own that has saved its state on the way."""
+    process = subprocess.Popen(command("run", case, "--out", out, "--quiet"), stderr=subprocess.PIPE, text=True, env=environment())
     deadline = time.monotonic() + 300.0
-    while not (out / "restart.h5").exists():
+    while not saved_time(out) > 0.0:
         assert process.poll() is None, process.stderr.read()
         assert time.monotonic() < deadline, "no checkpoint within 5 minutes"
         time.sleep(0.005)

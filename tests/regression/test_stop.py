@@ -40,7 +40,8 @@ def test_bodies_deep_in_each_other_stop_the_run_at_once(tmp_path):
     case, out = bodies_case(tmp_path, (0.0, 2.0, 0.0), (1.0, 3.0, 0.0)), tmp_path / "out"
     done = dilatedem("run", case, "--out", out, "--quiet")
     summary = assert_stopped(
-        done, out,
+        done,
+        out,
         r"stopped at t = 0 s: body 0 at \(1\.00, 1\.00\) and body 1 at \(2\.00, 1\.00\) overlap by \S+ m, .*; the state is saved; "
         r"try a smaller time\.step or check the case",
     )
@@ -76,7 +77,7 @@ REFUSED = {
     "step above the critical": ("time.step=1e-3", r"time\.step = 0\.001: must be at most the critical step.*time\.step = \"auto\""),
     "consistent": ('contact.model="consistent"', r'contact\.model = "consistent": .*set contact\.model = "liu2015"'),
     "two structures of one name": (
-        'structure=[{kind="pile", name="a"}, {kind="pile", name="a"}]', r"structure\.1\.name = \"?a\"?: is the name of structure\.0",
+        'structure=[{kind="pile", name="a"}, {kind="pile", name="a"}]', r"structure\.1\.name = \"?a\"?: is the name of structure",
     ),
     "nothing left": ("structure.0.radius=20.0", r"no floe is clear of the structures"),
     "tracked body": ("output.track=[99]", r"output\.track: there is no body 99"),

@@ -10,7 +10,7 @@ import pytest
 from dilatedem import simulation
 from dilatedem.case.load import load
 from dilatedem.case.schema import Case
-from dilatedem.errors import CaseError, SimulationStopped
+from dilatedem.errors import CaseError, Interrupted, SimulationStopped
 from dilatedem.simulation import Simulation, check, time_step, total_steps
 from dilatedem.state.clock import Status
 from dilatedem.state.pairs import empty_pairs
@@ -42,7 +42,9 @@ def test_a_step_of_the_case_is_taken_as_it_is_up_to_the_critical_one():
         time_step(case_of(time={"step": 4e-4}), 3.3e-4)
 
 
-@pytest.mark.parametrize(("duration", "dt", "steps"), [(1.0, 0.1, 10), (1.0, 0.3, 4), (0.3, 0.1, 3), (100.0, 0.01 / 298, 2_980_000)])
+@pytest.mark.parametrize(
+    ("duration", "dt", "steps"), [(1.0, 0.1, 10), (1.0, 0.3, 4), (0.3, 0.1, 3), (100.0, 0.01 / 298, 2_980_000)]
+)
 def test_steps_reach_the_end_and_not_one_more(duration, dt, steps):
     assert total_steps(case_of(time={"duration": duration}), dt) == steps
 
@@ -80,15 +82,13 @@ def test_loads_do_not_depend_on_how_steps_are_grouped():
 
 
 def test_a_body_inside_a_structure_stops_the_run_and_both_are_named(tmp_path):
+    spike = [[-3.0, -3.0, -3.0], [3.0, -3.0, -3.0], [0.0, 3.0, -3.0], [0.0, 0.0, 3.0]]
     case = case_of(
         structure=[{"kind": "pile", "name": "leg", "center": [1.0, 0.0], "radius": 0.3}],
-        body=[{"vertices": [[0.0, 0.0, 0.0]], "dilated_radius": 0.2, "position": [0.9, 0.0, 0.0]},
-              {"vertices": [[-3.0, -3.0, -3.0], [3.0, -3.0, -3.0], [0.0, 3.0, -3.0], [0.0, 0.0, 3.0]], "dilated_radius": 0.1,
-               "position": [1.0, 9.0, 0.0]}],
-    )  # fmt: skip
-    deep = case.model_copy(update={"body": [case.body[1].model_copy(update={"position": (1.0, 0.0, 0.0)})]})
+        body=[{"vertices": spike, "dilated_radius": 0.1, "position": [1.0, 0.0, 0.0]}],
+    )
     with pytest.raises(SimulationStopped, match=r'body 0 at \(1\.00, 0\.00\) and structure "leg" overlap by \S+ m'):
-        simulation.run(deep, tmp_path / "deep", quiet=True)
+        simulation.run(case, tmp_path / "deep", quiet=True)
 
 
 def test_more_threads_than_the_machine_has_are_refused(tmp_path):
@@ -114,3 +114,25 @@ def test_the_case_file_of_a_run_names_version_and_seed(crowded):
     text = (crowded / "case.toml").read_text()
     assert re.match(rf"# dilatedem {re.escape(__version__)}, seed 4\n\n", text)
     assert load(crowded / "case.toml") == load(CROWDED)
+
+
+def test_an_interrupt_while_compiling_leaves_no_folder(tmp_path, monkeypatch):
+    def interrupted(threads):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(simulation, "compile_kernels", interrupted)
+    with pytest.raises(Interrupted, match="interrupted while compiling; no file was touched"):
+        simulation.run(load(CROWDED), tmp_path / "out", quiet=True)
+    assert not (tmp_path / "out").exists()
+
+
+def test_wall_time_adds_up_over_the_parts_of_a_run_and_contains_the_compiling(tmp_path):
+    case, out = load(CROWDED, ["time.duration=0.1"]), tmp_path / "out"
+    simulation.run(case, out, quiet=True)
+    first = json.loads((out / "summary.json").read_text())
+    assert 0.0 < first["compile_s"] < first["wall_s"]
+    assert first["steps_per_s"] == pytest.approx(first["steps"] / (first["wall_s"] - first["compile_s"]))
+    simulation.run(case, out, resume=True, quiet=True)
+    second = json.loads((out / "summary.json").read_text())
+    assert second["wall_s"] > first["wall_s"] and second["compile_s"] > first["compile_s"]
+    assert second["steps"] == first["steps"]
