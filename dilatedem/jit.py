@@ -46,6 +46,8 @@ if "NUMBA_CACHE_DIR" not in os.environ:
 import numba  # noqa: E402  (the cache folder must be known first)
 from numba.extending import overload  # noqa: E402
 
+# a program that imported Numba before has it configured already, with the cache beside the sources: there, code goes stale
+numba.config.CACHE_DIR = os.environ["NUMBA_CACHE_DIR"]
 # OpenMP starts a parallel loop in 2 us, the other layers in 35 us and more; workqueue is the fallback that is always there.
 numba.config.THREADING_LAYER_PRIORITY = ["omp", "workqueue", "tbb"]
 

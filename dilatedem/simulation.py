@@ -106,6 +106,7 @@ class Simulation:
         status = self.advance(1, dt=0.0)
         self.state.clock.step[0] = 0
         self.state.loads.steps[0] = 0
+        self.workspace.turned[:] = -1  # or the first step would take the shapes for turned already
         return status
 
     def advance(self, steps: int, *, dt: float | None = None) -> Status:

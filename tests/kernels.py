@@ -11,7 +11,9 @@ from dilatedem.water.floating import submerged_polyhedron, submerged_prism
 
 @kernel
 def distance_of_pair(shapes, surroundings, bodies, pairs, vertex, face_normal, k):
-    """`closest_points` of pair k, its bodies turned: distance, normal, witness points, offset of b. The pair remembers its normal."""
+    """`closest_points` of pair k, its bodies turned: distance, normal, witness points, offset of b. The pair remembers its
+    normal.
+    """
     a, b = pairs.a[k], pairs.b[k]
     turn_shape(a, shapes, bodies.orientation, vertex, face_normal)
     turn_shape(b, shapes, bodies.orientation, vertex, face_normal)

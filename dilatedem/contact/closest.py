@@ -9,7 +9,7 @@ from math import sqrt
 
 from dilatedem.contact.penetration import core_penetration
 from dilatedem.contact.simplex import closest_on_segment, closest_on_tetrahedron, closest_on_triangle
-from dilatedem.jit import device
+from dilatedem.jit import device, item
 from dilatedem.numerics.vector import add, along, dot, load, scale, sub
 
 #: relative gain in squared distance below which the search ends; effect: error of the distance 1e-13, of the normal 3e-7 rad
@@ -32,7 +32,7 @@ def farthest_vertex(vertex, first, last, d):
     return best, reach
 
 
-@device
+@item
 def closest_points(vertex, face_normal, shapes, pairs, k, a, b, offset):
     """Signed distance of the cores of pair k, unit normal from a to b, and the witness points on a and b.
 

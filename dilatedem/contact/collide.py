@@ -4,7 +4,7 @@ from dilatedem.contact.closest import closest_points, farthest_vertex
 from dilatedem.contact.friction import carried_over, slide
 from dilatedem.contact.laws import damping_force, elastic_law, power, stored_energy
 from dilatedem.contact.patch import EDGE_PARALLEL, contact_patch
-from dilatedem.jit import device
+from dilatedem.jit import device, item
 from dilatedem.numerics.vector import add, along, cross, dot, load, norm, scale, store, sub
 
 
@@ -33,7 +33,7 @@ def _meet_half_space(vertex, shapes, pairs, k, a, b, position):
     return distance, normal, pa, along(pa, distance, normal)
 
 
-@device
+@item
 def _relative_velocity(velocity, spin, a, b, point, arm):
     """Velocity of b against a at the contact point [m/s]."""
     va = add(load(velocity, a), cross(load(spin, a), point))
@@ -57,7 +57,7 @@ def _end_contact(pairs, k, dt):
         pairs.force[k, i] = 0.0
 
 
-@device
+@item
 def _law_gain(pairs, k, dt, mode, overlap, stiffness, exponent, elastic, elastic_power):
     """Energy that the normal law made in the last step [J]: more is stored than the bodies' approach has paid for.
 
@@ -77,7 +77,7 @@ def _law_gain(pairs, k, dt, mode, overlap, stiffness, exponent, elastic, elastic
     return gain
 
 
-@device
+@item
 def collide(k, dt, shapes, vertex, face_normal, solids, bodies, pairs, contact, surroundings, scratch):
     """Evaluate pair k at this instant; writes its rows of `pairs` and nothing else.
 

@@ -5,7 +5,7 @@ A fixed order makes every sum the same for any number of threads.
 
 from math import atan2, pi, sqrt
 
-from dilatedem.jit import device
+from dilatedem.jit import device, item
 from dilatedem.numerics.vector import accumulate, cross, load, scale, sub
 from dilatedem.state.record import ANGLE_BINS, HEIGHT_BINS
 
@@ -54,7 +54,7 @@ def gather_contacts(awake, count, dt, floating, bodies, pairs, ledger, loads):
             _load_structure(b - floating, bodies, pairs, k, b, force, dt, loads)
 
 
-@device
+@item
 def _load_structure(s, bodies, pairs, k, b, force, dt, loads):
     """Add contact k to the load and the map of structure s (body b)."""
     # moments are about the structure's centre at z = 0; arm is from the centroid of b

@@ -9,7 +9,7 @@ from math import sqrt
 
 from dilatedem.contact.clip import clip_interval, clip_polygon, polygon_centroid
 from dilatedem.contact.support import EDGE, FACE, PARALLEL, VERTEX, corner_feature, support_feature
-from dilatedem.jit import device
+from dilatedem.jit import device, item
 from dilatedem.numerics.vector import add, along, cross, dot, load, norm, scale, sub, tangents
 from dilatedem.state.modes import Mode
 
@@ -36,7 +36,7 @@ def _point(kind_a, kind_b):
     return VERTEX_FACE
 
 
-@device
+@item
 def _clip_by_face(vertex, shapes, face, origin, t1, t2, turn, source, count, target):
     """Clip a polygon by the sides of a face; turn: 1 for a face seen counter-clockwise, -1 for clockwise. Returns count, side."""
     first, last = shapes.loop_start[face], shapes.loop_start[face + 1]
@@ -57,7 +57,7 @@ def _clip_by_face(vertex, shapes, face, origin, t1, t2, turn, source, count, tar
     return count, swapped
 
 
-@device
+@item
 def _surface(vertex, face_normal, shapes, face, origin, normal, t1, t2, radius):
     """Height along the normal of a face's dilated plane as h0 + hu u + hv v; radius < 0 for the face of b."""
     m = load(face_normal, face)
@@ -67,7 +67,7 @@ def _surface(vertex, face_normal, shapes, face, origin, normal, t1, t2, radius):
     return dot(p, normal) + radius - hu * dot(p, t1) - hv * dot(p, t2), hu, hv
 
 
-@device
+@item
 def _face_on_face(vertex, shapes, face_a, face_b, offset, normal, t1, t2, ra, plane, scratch):
     """Penetrating polygon of two faces: area, extent, width before the gap was looked at, centroid u, v, height of a there.
 
@@ -92,7 +92,7 @@ def _face_on_face(vertex, shapes, face_a, face_b, offset, normal, t1, t2, ra, pl
     return area, extent, width, u, v, h
 
 
-@device
+@item
 def _edge_patch(vertex, shapes, p, q, rise, face, origin, side, normal, t1, t2, plane, narrow, overlap):
     """Part of the edge p q that penetrates a face: mode (-1: none), point of application, overlap there, length [m].
 
@@ -148,7 +148,7 @@ def _edge_along_edge(pa, qa, pb, qb, normal, ra, rb):
     return low, high, 0.5 * (ha + hb + (sa + sb) * middle), ha - hb + (sa - sb) * middle
 
 
-@device
+@item
 def contact_patch(vertex, face_normal, shapes, corners, corner_a, corner_b, a, b, offset, normal, pa, pb, overlap, scratch):
     """Mode of the contact of a and b, whether a has the lower feature, point of application, overlap, size, sine of two edges.
 
@@ -221,7 +221,7 @@ def contact_patch(vertex, face_normal, shapes, corners, corner_a, corner_b, a, b
     return _point(kind_a, kind_b), kind_a <= kind_b, middle, overlap, 1.0, 1.0
 
 
-@device
+@item
 def _inside(vertex, shapes, point, face, origin, t1, t2, turn):
     """Whether a point projects into a face (turn as in `_clip_by_face`)."""
     first, last = shapes.loop_start[face], shapes.loop_start[face + 1]

@@ -3,7 +3,7 @@
 Real floes lie almost flat on each other, so "parallel" is a small angle, never an equality.
 """
 
-from dilatedem.jit import device
+from dilatedem.jit import device, item
 from dilatedem.numerics.vector import cross, dot, load, sub
 from dilatedem.state.modes import Feature
 
@@ -14,7 +14,7 @@ PARALLEL = 0.02
 VERTEX, EDGE, FACE = int(Feature.VERTEX), int(Feature.EDGE), int(Feature.FACE)
 
 
-@device
+@item
 def support_feature(vertex, face_normal, shapes, body, corner, corners, direction):
     """The feature of a core that lies along a unit direction: kind, first and second number.
 

@@ -1,11 +1,11 @@
 """Shapes turned to world directions, only for bodies that some awake pair looks at."""
 
-from dilatedem.jit import device
+from dilatedem.jit import device, item
 from dilatedem.numerics.rotation import rotation_matrix, to_world
 from dilatedem.numerics.vector import load, store
 
 
-@device
+@item
 def turn_shape(body, shapes, orientation, vertex, face_normal):
     """Core vertices and face normals of a body in world directions, from its centroid; written to its rows of both arrays."""
     R = rotation_matrix(orientation[body, 0], orientation[body, 1], orientation[body, 2], orientation[body, 3])

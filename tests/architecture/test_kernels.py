@@ -1,7 +1,11 @@
 """Compiled code allocates nothing, and every function of it was compiled by the decorators of `dilatedem.jit`."""
 
 import importlib
+import os
 import pkgutil
+import subprocess
+import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -45,6 +49,16 @@ def test_a_kernel_that_allocates_does_not_compile():
 
     with pytest.raises(NumbaError, match="NRT"):
         copies(np.ones(3))
+
+
+@pytest.mark.parametrize("before", ["", "import numba; ", "import numba.core.registry; "])
+def test_compiled_code_lies_in_the_folder_of_its_sources_whoever_imports_numba_first(before, tmp_path):
+    """Beside the sources it would outlive a change in what a kernel calls, and give the answers of yesterday."""
+    program = f"{before}from dilatedem import jit; from dilatedem.motion.step import advance; print(advance.stats.cache_path)"
+    environment = {name: value for name, value in os.environ.items() if name != "NUMBA_CACHE_DIR"}
+    environment |= {"XDG_CACHE_HOME": str(tmp_path), "PYTHONPATH": str(Path(dilatedem.__path__[0]).parent)}
+    told = subprocess.run([sys.executable, "-c", program], env=environment, capture_output=True, text=True, check=True)
+    assert told.stdout.startswith(f"{tmp_path}/dilatedem/")
 
 
 def test_kernels_say_in_their_first_lines_what_they_do():

@@ -1,4 +1,6 @@
-"""What holds for any two bodies: swapping them flips the normal, moving both changes nothing, action equals reaction, also through the seam."""
+"""What holds for any two bodies: swapping them flips the normal, moving both changes nothing, action equals reaction, also
+through the seam.
+"""
 
 import numpy as np
 import pytest
@@ -24,7 +26,9 @@ def touching(kind_a: str, kind_b: str, seed: int, *, flat: bool) -> PairInPlace:
     rng = np.random.default_rng(seed)
     pair = PairInPlace(CORES[kind_a], CORES[kind_b], radii=(RADII["a"], RADII["b"]))
     turns = [
-        Rotation.from_rotvec([*rng.normal(size=2) * 10.0 ** rng.uniform(-12, -1), rng.uniform(-3, 3)]) if flat else Rotation.random(rng=rng)
+        Rotation.from_rotvec([*rng.normal(size=2) * 10.0 ** rng.uniform(-12, -1), rng.uniform(-3, 3)])
+        if flat
+        else Rotation.random(rng=rng)
         for _ in range(2)
     ]
     pair.place(0, rng.uniform(-5, 5, 3), turns[0])

@@ -1,8 +1,8 @@
 """Distance and depth of convex cores by slow and obvious ways that share nothing with the package.
 
-Distance: the smallest |v| over the convex hull of all differences w = b_j - a_i is a quadratic programme. Its dual, min |x| with w.x >= 1 for
-all w (x = v/|v|^2), is solved by non-negative least squares (Lawson & Hanson, least distance programming), whose multipliers weigh the corners.
-Depth: the origin's distance to the hull of the same differences.
+Distance: the smallest |v| over the convex hull of all differences w = b_j - a_i is a quadratic programme. Its dual, min |x|
+with w.x >= 1 for all w (x = v/|v|^2), is solved by non-negative least squares (Lawson & Hanson, least distance programming),
+whose multipliers weigh the corners. Depth: the origin's distance to the hull of the same differences.
 """
 
 import numpy as np
@@ -26,6 +26,8 @@ def closest_points(a: np.ndarray, b: np.ndarray) -> tuple[float, np.ndarray, np.
 
 
 def depth(a: np.ndarray, b: np.ndarray) -> float:
-    """Length [m] of the shortest translation that takes intersecting hulls of a (n, 3) and b (m, 3) apart; negative if they are apart."""
+    """Length [m] of the shortest translation that takes intersecting hulls of a (n, 3) and b (m, 3) apart; negative if they
+    are apart.
+    """
     difference = (b[None] - a[:, None]).reshape(-1, 3)
     return float(-ConvexHull(difference).equations[:, 3].max())

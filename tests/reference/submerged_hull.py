@@ -1,4 +1,6 @@
-"""Submerged part of a convex polyhedron by slow and obvious means: the corners below water and the points where edges pass it, hulled."""
+"""Submerged part of a convex polyhedron by slow and obvious means: the corners below water and the points where edges pass
+it, hulled.
+"""
 
 import numpy as np
 from scipy.spatial import ConvexHull
@@ -7,8 +9,8 @@ from dilatedem.geometry.polyhedron import Polyhedron
 
 
 def submerged(outer: Polyhedron, turn: np.ndarray, height: float) -> tuple[float, np.ndarray, float]:
-    """Volume [m3], its centroid (3,) in body coordinates [m] and the wetted area [m2] below z = 0 of a polyhedron turned by the matrix `turn`,
-    its origin at z = `height`."""
+    """Volume [m3], its centroid (3,) in body coordinates [m] and the wetted area [m2] below z = 0 of a polyhedron turned by
+    the matrix `turn`, its origin at z = `height`."""
     up = turn[2]
     level = outer.vertices @ up + height
     points = [outer.vertices[level <= 0.0]]

@@ -91,7 +91,7 @@ def test_a_killed_run_resumes_from_its_last_checkpoint(crowded, tmp_path):
     assert process.returncode == -signal.SIGKILL
     assert json.loads((out / "summary.json").read_text())["status"] == "running"
 
-    done = dilatedem("run", CASES / "crowded.toml", "--out", out, "--resume", "--threads", 2, "--quiet")
+    done = dilatedem("run", CASES / "crowded.toml", "--out", out, "--resume", "--quiet")
     assert (done.returncode, done.stderr) == (0, "")
     assert_same_run(out, crowded)
 

@@ -1,7 +1,8 @@
 """Chung & Ooi (2011), tests 1-3: normal impacts of spheres.
 
-1, 2: Hertz, as in `test_hertz_impact`. 3 (damped): m x'' = -max(K d^(3/2) + C d^(1/2) d', 0), C = xi sqrt(2 m K), with the overlap d (Liu 2015, Eqs. (3), (4)),
-integrated here to 1e-10. Its restitution depends on speed, so that the test's own target (what was put in) does not apply to `liu2015`.
+1, 2: Hertz, as in `test_hertz_impact`. 3 (damped): m x'' = -max(K d^(3/2) + C d^(1/2) d', 0), C = xi sqrt(2 m K), with the
+overlap d (Liu 2015, Eqs. (3), (4)), integrated here to 1e-10. Its restitution depends on speed, so that the test's own target
+(what was put in) does not apply to `liu2015`.
 """
 
 from math import pi, sqrt
@@ -66,7 +67,8 @@ def compare_3() -> list[Comparison]:
     impacts(simulation)
     after = simulation.state.bodies.velocity[:3, 2]
     return [
-        Comparison(case, f"restitution at {v:g} m/s", damped_restitution(v), float(u / v)) for v, u in zip(before, after, strict=True)
+        Comparison(case, f"restitution at {v:g} m/s", damped_restitution(v), float(u / v))
+        for v, u in zip(before, after, strict=True)
     ]
 
 

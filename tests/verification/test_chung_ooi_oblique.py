@@ -1,13 +1,14 @@
-"""Chung & Ooi (2011), tests 4-8: oblique and spinning impacts of elastic spheres that slide throughout (Coulomb on the whole impulse).
+"""Chung & Ooi (2011), tests 4-8: oblique and spinning impacts of elastic spheres that slide throughout (Coulomb on the whole
+impulse).
 
-The normal impulse on a sphere is P = m* (1 + e) V_n, e = 1, V_n: speed of approach; the tangential one mu P against the surface's sliding. On a
-rigid plane (m* = m, I = 2 m R^2/5):
+The normal impulse on a sphere is P = m* (1 + e) V_n, e = 1, V_n: speed of approach; the tangential one mu P against the
+surface's sliding. On a rigid plane (m* = m, I = 2 m R^2/5):
 4: e_t = 1 - mu (1 + e)/tan(theta), w' = -(5/2) mu (1 + e) v cos(theta)/R, theta from the normal, v the speed
 5: psi' = psi - 7, R w'/(mu V_n) = -5, psi = sliding speed of the surface/(mu V_n)
 6: spin w without tangential speed: V_t' = mu (1 + e) V_n, w' = w - (5/2) mu (1 + e) V_n/R
-Two spheres that spin the same way: 7, 8: m_i V_ti' = mu P to opposite sides, I_i w_i' = I_i w_i - mu R_i P; the pair's centre does not move (also
-where the contact sticks).
-A closed form has its lever R, the contact R less half the overlap: up to 1e-3 of w' here.
+Two spheres that spin the same way: 7, 8: m_i V_ti' = mu P to opposite sides, I_i w_i' = I_i w_i - mu R_i P; the pair's centre
+does not move (also where the contact sticks). A closed form has its lever R, the contact R less half the overlap: up to 1e-3
+of w' here.
 """
 
 from math import pi

@@ -1,6 +1,7 @@
 """A floating box: draft h rho/rho_w; heave T = 2 pi sqrt(m/(rho_w g A)); roll T = 2 pi sqrt(I/(rho_w g V GM)).
 
-b = 2.8 m, h = 0.5 m, A = b^2, I = m (b^2 + h^2)/12, metacentric height GM = b^2/(12 d) - (h - d)/2 with the draft d. Without added mass.
+b = 2.8 m, h = 0.5 m, A = b^2, I = m (b^2 + h^2)/12, metacentric height GM = b^2/(12 d) - (h - d)/2 with the draft d. Without
+added mass.
 """
 
 from math import pi, sqrt

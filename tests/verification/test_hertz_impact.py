@@ -1,7 +1,7 @@
 """Hertz impact: delta = (5 m* v^2/(4 K))^(2/5), F = K delta^(3/2), t = 2.943 delta/v, with F = K delta^(3/2) of the contact mode.
 
-K = 4/3 E* sqrt(R) with R of Liu 2015, Eqs. (10)-(13): R1 R2/(R1 + R2) for two corners (spheres), r for a corner on a face, sqrt(R1 R2) for edges
-(capsules) that cross at right angles, sqrt(r R*) for a corner (sphere) on an edge (the pile).
+K = 4/3 E* sqrt(R) with R of Liu 2015, Eqs. (10)-(13): R1 R2/(R1 + R2) for two corners (spheres), r for a corner on a face,
+sqrt(R1 R2) for edges (capsules) that cross at right angles, sqrt(r R*) for a corner (sphere) on an edge (the pile).
 """
 
 from math import pi, sqrt

@@ -1,9 +1,10 @@
 """A block on an incline slips if and only if tan(alpha) > mu, with a = g (sin(alpha) - mu cos(alpha)); it tips if and only if
 tan(alpha) > b/h, b: width of the flat side it stands on, h: twice the height of its centroid.
 
-`liu2015` keeps this as far as it can: its force on a tilted face is no gradient of an energy, so that a block that friction loads off its
-centre goes on rocking by some 1e-5 rad, fed by the law (`gain_law` of the ledger), and creeps downhill at millimetres a second where it should
-stand. It does not accelerate, which is what is tested; by the same soft rim tipping is bracketed to 0.95-1.1 only.
+`liu2015` keeps this as far as it can: its force on a tilted face is no gradient of an energy, so that a block that friction
+loads off its centre goes on rocking by some 1e-5 rad, fed by the law (`gain_law` of the ledger), and creeps downhill at
+millimetres a second where it should stand. It does not accelerate, which is what is tested; tipping is bracketed to 0.95-1.1
+only (a base of 1.05 still tips).
 """
 
 from math import cos, radians, sin

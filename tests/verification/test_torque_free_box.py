@@ -1,8 +1,9 @@
 """A box without torque, spun about its middle axis, turns over: the middle component of the spin passes zero at (2 n - 1) K(m)/p.
 
-Euler's equations I_1 w1' = (I_2 - I_3) w2 w3 (cyclic) in the body frame are solved by Jacobi's elliptic functions. For I_1 < I_2 < I_3 and
-L^2 < 2 T I_2 (2 T = sum I w^2, L^2 = sum I^2 w^2), from an extremum of w2 (here w3 = 0 at the start):
-p^2 = (I_2 - I_1)(2 T I_3 - L^2)/(I_1 I_2 I_3), m = (I_3 - I_2)(L^2 - 2 T I_1)/((I_2 - I_1)(2 T I_3 - L^2)). K: complete elliptic integral.
+Euler's equations I_1 w1' = (I_2 - I_3) w2 w3 (cyclic) in the body frame are solved by Jacobi's elliptic functions. For I_1 <
+I_2 < I_3 and L^2 < 2 T I_2 (2 T = sum I w^2, L^2 = sum I^2 w^2), from an extremum of w2 (here w3 = 0 at the start): p^2 =
+(I_2 - I_1)(2 T I_3 - L^2)/(I_1 I_2 I_3), m = (I_3 - I_2)(L^2 - 2 T I_1)/((I_2 - I_1)(2 T I_3 - L^2)). K: complete elliptic
+integral.
 """
 
 from math import sqrt

@@ -51,7 +51,10 @@ def row(comparison: Comparison) -> str:
 
 def table() -> str:
     """The whole table in Markdown, one section for each closed form."""
-    lines = [f"dilatedem {dilatedem.__version__}. Error: relative to the target, or to the scale of the quantity where the target is 0."]
+    lines = [
+        f"dilatedem {dilatedem.__version__}. Error: relative to the target; where that is 0 or a difference of large numbers, "
+        "to the scale of the quantity."
+    ]
     for module, title in FORMS.items():
         started = time.perf_counter()
         comparisons = importlib.import_module(f"tests.verification.{module}").compare()

@@ -162,7 +162,9 @@ def test_long_pile_and_a_floe():
         assert abs(pair.closest().normal[2]) < 1e-9
 
 
-@pytest.mark.parametrize("kinds", [("box", "box"), ("floe", "box"), ("floe", "pile"), ("sliver", "floe"), ("hull", "capsule")], ids="-".join)
+@pytest.mark.parametrize(
+    "kinds", [("box", "box"), ("floe", "box"), ("floe", "pile"), ("sliver", "floe"), ("hull", "capsule")], ids="-".join
+)
 def test_warm_start_is_cold_start(kinds):
     warm = PairInPlace(*(CORES[kind] for kind in kinds))
     cold = PairInPlace(*(CORES[kind] for kind in kinds))

@@ -71,8 +71,9 @@ def test_free_fall_is_exact():
 
 
 def test_motion_is_time_reversible():
-    made = simulation(4e-4, {"position": [0.0, 0.0, -0.1], "rotation": [0.1, 0.05, 0.2], "velocity": [0.3, 0.0, 0.4]},
-                      water={"drag_force_coefficient": 0.0, "drag_moment_coefficient": 0.0}, gravity={"acceleration": 9.81})  # fmt: skip
+    body = {"position": [0.0, 0.0, -0.1], "rotation": [0.1, 0.05, 0.2], "velocity": [0.3, 0.0, 0.4]}
+    still = {"drag_force_coefficient": 0.0, "drag_moment_coefficient": 0.0}
+    made = simulation(4e-4, body, water=still, gravity={"acceleration": 9.81})
     bodies = made.state.bodies
     start = bodies.position[0].copy(), bodies.orientation[0].copy()
     made.advance(2000)

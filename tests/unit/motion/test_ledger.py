@@ -1,4 +1,6 @@
-"""The energy ledger of an impact closes: its residual is small against the energy that is exchanged, and of second order in the step."""
+"""The energy ledger of an impact closes: its residual is small against the energy that is exchanged, and of second order in
+the step.
+"""
 
 import pytest
 

@@ -27,7 +27,9 @@ def test_mobility_of_a_floes_corner():
 
 
 def step_of(area: float, m_eff: float, damping: float = 0.36) -> float:
-    """dt = (2/omega)(sqrt(1 + xi^2) - xi) for two equal ice bodies that oppose a mass m_eff [kg] each to k = 2 E* beta sqrt(A/pi)."""
+    """dt = (2/omega)(sqrt(1 + xi^2) - xi) for two equal ice bodies that oppose a mass m_eff [kg] each to k = 2 E* beta
+    sqrt(A/pi).
+    """
     stiffness = 2 * 1e9 / (2 * 0.91) * 1.02 * np.sqrt(area / np.pi)
     return 2 / np.sqrt(stiffness * 2 / m_eff) * (np.sqrt(1 + damping**2) - damping)
 

@@ -8,8 +8,8 @@ import pytest
 
 from dilatedem.geometry.outer import outer_polyhedron
 from dilatedem.geometry.polyhedron import convex_hull, prism, volume
-from dilatedem.output.folder import snapshot_name
 from dilatedem.numerics.frames import matrix_from_quaternion
+from dilatedem.output.folder import snapshot_name
 from dilatedem.output.vtu import (
     PILE_SIDES,
     PLATE_THICKNESS,

@@ -37,7 +37,7 @@ def test_clipping_at_any_tilt(name):
     rng = np.random.default_rng(4)
     outer = SHAPES[name].outer
     total = met = 0
-    for _ in range(60):
+    for _ in range(25):
         turn = Rotation.random(rng=rng).as_matrix()
         z = rng.uniform(-1.0, 1.0) * np.abs(outer.vertices @ turn[2]).max()
         expected = submerged(outer, turn, z)
@@ -55,7 +55,7 @@ def test_closed_form_of_floes(name):
     assert HULLS.prism[NUMBER[name]]
     rng = np.random.default_rng(5)
     met = 0
-    for _ in range(300):
+    for _ in range(150):
         tilt = rng.normal(size=2) * 10.0 ** rng.uniform(-8, -0.5)
         turn = Rotation.from_rotvec([*tilt, 0.0]).as_matrix() @ Rotation.from_rotvec([0, 0, rng.uniform(-3, 3)]).as_matrix()
         half = np.abs(SHAPES[name].outer.vertices[:, 2]).max()
@@ -65,7 +65,7 @@ def test_closed_form_of_floes(name):
             met += 1
             same(found, by_clipping(name, turn, z))
             same(found, submerged(SHAPES[name].outer, turn, z))
-    assert met > 60
+    assert met > 30
 
 
 def test_closed_form_knows_where_it_ends():

@@ -33,7 +33,8 @@ def put(simulation: Simulation, position, turn: Rotation) -> None:
 @pytest.mark.parametrize("tilt", [0.0, 0.02, 0.3, 1.2, 2.8])
 def test_buoyancy_is_the_gradient_of_its_energy(body, tilt):
     simulation = afloat(body)
-    position, turn = np.array([0.3, -0.2, -0.13]), Rotation.from_rotvec(tilt * np.array([0.6, 0.8, 0.0])) * Rotation.from_rotvec([0, 0, 0.4])
+    position = np.array([0.3, -0.2, -0.13])
+    turn = Rotation.from_rotvec(tilt * np.array([0.6, 0.8, 0.0])) * Rotation.from_rotvec([0, 0, 0.4])
 
     def energy(shift, twist):
         put(simulation, position + shift, Rotation.from_rotvec(twist) * turn)
