@@ -193,8 +193,8 @@ def _require_one_image(case: Case, scene: Scene, periodic: tuple[bool, bool]) ->
     for axis, wraps in enumerate(periodic):
         if wraps and case.domain.size[axis] <= least:
             raise CaseError(
-                f"domain.size.{axis} = {case.domain.size[axis]:g}: is periodic and must be more than {least:.3g} m, or the two largest "
-                "bodies could meet on both sides at once"
+                f"domain.size.{axis} = {case.domain.size[axis]:g}: is periodic and must be more than {least:.3g} m, or the two "
+                "largest bodies could meet on both sides at once"
             )
 
 
