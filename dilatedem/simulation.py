@@ -288,8 +288,11 @@ def _load_checkpoint(out: Path, case: Case, simulation: Simulation) -> dict:
     if text.partition("\n\n")[2] != write.dump(case):
         raise CaseError(f"{kept}: is not the case given; resume with the case that the run was started with")
     groups, meta = checkpoint.load(out / folder.CHECKPOINT)
-    if meta["version"] != __version__ or meta["dt"] != simulation.dt:
+    if meta["version"] != __version__:
         raise CaseError(f"{out / folder.CHECKPOINT}: was written by dilatedem {meta['version']}; resume with that version")
+    if meta["dt"] != simulation.dt:
+        steps = f"{meta['dt']:g} s, this program takes {simulation.dt:g} s"
+        raise CaseError(f"{out / folder.CHECKPOINT}: has steps of {steps}; run anew with --overwrite")
     state = simulation.state
     for name, current in state.groups().items():
         setattr(state, name, checkpoint.restore(type(current), groups[name], where=str(out / folder.CHECKPOINT)))

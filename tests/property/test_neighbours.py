@@ -22,8 +22,8 @@ def open_contacts(pairs) -> dict:
 @pytest.mark.parametrize("boundary", ["periodic", "wall", "open"])
 def test_no_contact_is_missed(boundary):
     case = Case.model_validate({
-        "domain": {"size": [16.0, 12.0], "x_boundary": boundary, "y_boundary": "periodic"},
-        "field": {"floe_count": 24, "concentration": 0.8, "seed": 3},
+        "domain": {"size": [18.0, 14.0], "x_boundary": boundary, "y_boundary": "periodic"},
+        "field": {"floe_count": 31, "concentration": 0.8, "seed": 3},
         "structure": [{"kind": "pile", "center": [2.0, 5.0], "radius": 0.8}],
         "water": {"velocity": [0.8, 0.2]},
         "time": {"duration": 20.0},
