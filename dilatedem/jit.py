@@ -101,7 +101,7 @@ def by_team(alone, shared):
     """
 
     def stage(*arguments):
-        raise NotImplementedError("only for compiled code")
+        raise TypeError("a stage of a time step: only compiled code can call it")
 
     @overload(stage, strict=False)
     def choose(*arguments):

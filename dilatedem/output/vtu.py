@@ -86,11 +86,6 @@ class SnapshotWriter:
             temporary.write_bytes("".join(parts).encode())
 
 
-def write_snapshot(path, outers: Sequence[Polyhedron], position, orientation, cell_data: dict) -> None:
-    """Write bodies once; see `SnapshotWriter`, which pays where the same bodies are written more often."""
-    SnapshotWriter(outers).write(path, position, orientation, cell_data)
-
-
 def write_shapes(path, outers: Sequence[Polyhedron], position, orientation, cell_data: dict) -> None:
     """Write bodies in a pose with whatever cell data (float64 or int64, one row a body), atomically."""
     SnapshotWriter(outers)._write(path, position, orientation, cell_data)

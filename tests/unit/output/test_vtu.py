@@ -18,7 +18,6 @@ from dilatedem.output.vtu import (
     plane_plate,
     wrapped,
     write_pvd,
-    write_snapshot,
     write_structures,
 )
 
@@ -100,7 +99,7 @@ def scene():
 
 def test_vtk_reads_cells_volumes_and_arrays(tmp_path, scene):
     outers, position, orientation, cell_data = scene
-    write_snapshot(tmp_path / "a.vtu", outers, position, orientation, cell_data)
+    SnapshotWriter(outers).write(tmp_path / "a.vtu", position, orientation, cell_data)
     grid = read(tmp_path / "a.vtu")
     assert grid.GetNumberOfCells() == len(outers)
     assert {grid.GetCellType(i) for i in range(len(outers))} == {vtk.VTK_POLYHEDRON}
@@ -131,7 +130,7 @@ def test_spheres_capsules_and_irregular_floes_have_their_volume(tmp_path):
         outers.append(prism(outline - outline.mean(axis=0), -0.25, 0.25))
     count = len(outers)
     orientation = np.tile([1.0, 0, 0, 0], (count, 1))
-    write_snapshot(tmp_path / "a.vtu", outers, np.zeros((count, 3)), orientation, data(count, rng))
+    SnapshotWriter(outers).write(tmp_path / "a.vtu", np.zeros((count, 3)), orientation, data(count, rng))
     grid = read(tmp_path / "a.vtu")
     expected = [volume(outers[number]) for number in vtk_to_numpy(grid.GetCellData().GetArray("body"))]
     np.testing.assert_allclose(volumes(grid), expected, rtol=1e-9)
@@ -139,7 +138,7 @@ def test_spheres_capsules_and_irregular_floes_have_their_volume(tmp_path):
 
 def test_vertices_are_turned_and_moved(tmp_path, scene):
     outers, position, orientation, cell_data = scene
-    write_snapshot(tmp_path / "a.vtu", outers, position, orientation, cell_data)
+    SnapshotWriter(outers).write(tmp_path / "a.vtu", position, orientation, cell_data)
     grid = read(tmp_path / "a.vtu")
     points = vtk_to_numpy(grid.GetPoints().GetData())
     for cell, body in enumerate(vtk_to_numpy(grid.GetCellData().GetArray("body"))):
@@ -169,7 +168,7 @@ def test_writer_is_reusable_and_replaces_atomically(tmp_path, scene):
     writer.write(path, position + 1.0, orientation, cell_data)
     (tmp_path / "a.vtu.tmp").write_bytes(b"<VTKFile")  # left by a kill
     writer.write(path, position, orientation, cell_data)
-    write_snapshot(tmp_path / "b.vtu", outers, position, orientation, cell_data)
+    SnapshotWriter(outers).write(tmp_path / "b.vtu", position, orientation, cell_data)
     assert path.read_bytes() == (tmp_path / "b.vtu").read_bytes()
     assert sorted(file.name for file in tmp_path.iterdir()) == ["a.vtu", "b.vtu"]
 
@@ -178,7 +177,7 @@ def test_meshio_reads_the_same(tmp_path, scene):
     # It cannot with cells in any order: this guards the order in the file.
     outers, position, orientation, cell_data = scene
     assert np.any(np.diff([len(outer.vertices) for outer in outers]) < 0)
-    write_snapshot(tmp_path / "a.vtu", outers, position, orientation, cell_data)
+    SnapshotWriter(outers).write(tmp_path / "a.vtu", position, orientation, cell_data)
     mesh = meshio.read(tmp_path / "a.vtu")
     body = np.concatenate(mesh.cell_data["body"])
     assert sorted(body) == list(range(len(outers)))
@@ -209,7 +208,7 @@ def test_collection_lists_times_and_files(tmp_path, scene):
     times = [0.0, 0.30000000000000004, 12.5]
     snapshots = [(time_s, snapshot_name(i)) for i, time_s in enumerate(times)]
     for _, name in snapshots:
-        write_snapshot(tmp_path / name, outers, position, orientation, cell_data)
+        SnapshotWriter(outers).write(tmp_path / name, position, orientation, cell_data)
     write_pvd(tmp_path / "ice.pvd", snapshots[:1])
     write_pvd(tmp_path / "ice.pvd", snapshots)
     entries = ElementTree.parse(tmp_path / "ice.pvd").getroot().findall("./Collection/DataSet")
@@ -250,5 +249,5 @@ def test_positions_are_wrapped_along_periodic_axes_only():
 
 def test_no_bodies(tmp_path):
     empty = {name: values[:0] for name, values in data(1, np.random.default_rng(0)).items()}
-    write_snapshot(tmp_path / "a.vtu", [], np.zeros((0, 3)), np.zeros((0, 4)), empty)
+    SnapshotWriter([]).write(tmp_path / "a.vtu", np.zeros((0, 3)), np.zeros((0, 4)), empty)
     assert read(tmp_path / "a.vtu").GetNumberOfCells() == 0

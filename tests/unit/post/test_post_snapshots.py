@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from dilatedem.geometry.polyhedron import prism
-from dilatedem.output.vtu import CELL_DATA, write_snapshot
+from dilatedem.output.vtu import CELL_DATA, SnapshotWriter
 from dilatedem.post.snapshots import plan_outlines, read_snapshot
 
 
@@ -25,7 +25,7 @@ def bodies(count, random):
 def test_snapshot_comes_back(tmp_path, count):
     outers, position, data = bodies(count, np.random.default_rng(1))
     upright = np.tile([1.0, 0.0, 0.0, 0.0], (count, 1))
-    write_snapshot(tmp_path / "ice.vtu", outers, position, upright, data)
+    SnapshotWriter(outers).write(tmp_path / "ice.vtu", position, upright, data)
     snapshot = read_snapshot(tmp_path / "ice.vtu", 3.0)
     assert snapshot.time == 3.0
     assert sorted(snapshot.body) == list(range(count))
@@ -39,7 +39,7 @@ def test_snapshot_comes_back(tmp_path, count):
 def test_file_cut_short_anywhere_is_refused(tmp_path):
     outers, position, data = bodies(3, np.random.default_rng(1))
     whole = tmp_path / "ice.vtu"
-    write_snapshot(whole, outers, position, np.tile([1.0, 0.0, 0.0, 0.0], (3, 1)), data)
+    SnapshotWriter(outers).write(whole, position, np.tile([1.0, 0.0, 0.0, 0.0], (3, 1)), data)
     content = whole.read_bytes()
     for length in range(0, len(content) - 20, 97):
         whole.write_bytes(content[:length])
