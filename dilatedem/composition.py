@@ -155,9 +155,7 @@ def _floating_height(case: Case, shape: BodyShape, density: float) -> float:
 
 
 def build_model(case: Case, scene: Scene) -> Model:
-    """The constant arrays of a run. Raises CaseError for a contact model that does not exist yet."""
-    if case.contact.model != "liu2015":
-        raise CaseError(f'contact.model = "{case.contact.model}": is not available yet; set contact.model = "liu2015"')
+    """The constant arrays of a run."""
     # convex structures (piles) must come before half spaces, as `pack_shapes` puts those last
     piles = [s for s in scene.structures if s.kind == "pile"]
     planes = [s for s in scene.structures if s.kind == "plane"]
@@ -174,7 +172,7 @@ def build_model(case: Case, scene: Scene) -> Model:
         hulls=pack_hulls(shapes),
         solids=_solids(case, scene, [*piles, *planes]),
         contact=ContactSetting(
-            int(ContactModel.LIU2015), case.contact.damping, case.contact.friction, case.contact.stiffness_ratio
+            int(ContactModel[case.contact.model.upper()]), case.contact.damping, case.contact.friction, case.contact.stiffness_ratio
         ),
         surroundings=Surroundings(
             case.gravity.acceleration, water.enabled, water.density, *current, water.drag_force_coefficient,

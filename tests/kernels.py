@@ -2,6 +2,7 @@
 
 from dilatedem.contact.closest import closest_points
 from dilatedem.contact.collide import separation
+from dilatedem.contact.consistent.join import pose_energy
 from dilatedem.contact.patch import contact_patch
 from dilatedem.contact.turning import turn_shape
 from dilatedem.jit import kernel
@@ -29,6 +30,15 @@ def patch_of_pair(shapes, pairs, vertex, face_normal, k, offset, normal, pa, pb,
     return contact_patch(
         vertex, face_normal, shapes, pairs.corners[k], pairs.corner_a[k], pairs.corner_b[k], pairs.a[k], pairs.b[k],
         offset, normal, pa, pb, overlap, scratch,
+    )  # fmt: skip
+
+
+@kernel
+def energy_of_pair(shapes, pairs, vertex, face_normal, k, offset, normal, pb, modulus, scratch):
+    """`pose_energy` of pair k, its bodies turned and its corners known by `distance_of_pair`."""
+    return pose_energy(
+        vertex, face_normal, shapes, pairs.a[k], pairs.b[k], pairs.corner_a[k, 0], pairs.corner_b[k, 0], offset, normal, pb,
+        modulus, scratch,
     )  # fmt: skip
 
 

@@ -12,7 +12,7 @@ from dilatedem.state.modes import Mode
 from dilatedem.state.pairs import empty_pairs
 from dilatedem.state.setting import Surroundings
 from dilatedem.state.workspace import MOST_CORNERS
-from tests.kernels import distance_of_pair, patch_of_pair
+from tests.kernels import distance_of_pair, energy_of_pair, patch_of_pair
 
 
 class Closest(NamedTuple):
@@ -31,6 +31,16 @@ class Patch(NamedTuple):
     size: float  # m or m2
 
 
+class Press(NamedTuple):
+    """What the consistent model says of a pose, for an effective modulus of 1 Pa."""
+
+    energy: float  # J
+    force: np.ndarray  # (3,) on b, N
+    moment: np.ndarray  # (3,) of that force about the centroid of a, N m
+    mode: Mode
+    size: float  # m or m2
+
+
 class PairInPlace:
     """Cores a and b with their dilated radii [m]; period (2,) [m] of the domain, 0 = not periodic."""
 
@@ -40,7 +50,7 @@ class PairInPlace:
         self.bodies = bodies_at_rest(2)
         self.surroundings = Surroundings(0.0, False, 1025.0, 0.0, 0.0, 0.0, 0.0, *map(float, period))
         self._vertex, self._face_normal = self.shapes.vertex.copy(), self.shapes.face_normal.copy()
-        self._scratch = np.zeros((2, MOST_CORNERS, 3))
+        self._scratch = np.zeros((6, MOST_CORNERS, 3))
         self.forget()
 
     def forget(self) -> None:
@@ -75,6 +85,16 @@ class PairInPlace:
             self.shapes, self.pairs, self._vertex, self._face_normal, 0, offset, normal, pa, pb, overlap, self._scratch
         )
         return Patch(Mode(mode), self.bodies.position[0] + point, depth, size)
+
+    def press(self, modulus: float = 1.0) -> Press | None:
+        """None where the dilated bodies are apart."""
+        distance, normal, pa, pb, offset = self._evaluate()
+        if distance >= self.shapes.radius.sum():
+            return None
+        energy, force, moment, mode, size = energy_of_pair(
+            self.shapes, self.pairs, self._vertex, self._face_normal, 0, offset, normal, pb, modulus, self._scratch
+        )
+        return Press(energy, np.array(force), np.array(moment), Mode(mode), size)
 
     def _evaluate(self):
         return distance_of_pair(

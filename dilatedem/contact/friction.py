@@ -32,3 +32,15 @@ def slide(slip, sliding, stiffness, limit):
         return stretched, 0.0
     held = limit / stiffness
     return scale(held / length, stretched), length - held
+
+
+@device
+def rescaled(slip, old, new):
+    """The spring vector when its stiffness has changed from `old` to `new` [N/m], and the energy that this cost [J].
+
+    A stiffer spring keeps its force, or it would have energy it was never given; a softer one keeps its elongation, and what its
+    force loses on the way is left to the caller (it depends on where the step ends). After Mindlin and Deresiewicz (1953).
+    """
+    if new <= old or old == 0.0:
+        return slip, 0.0
+    return scale(old / new, slip), 0.5 * old * dot(slip, slip) * (1.0 - old / new)

@@ -6,7 +6,7 @@ A fixed order makes every sum the same for any number of threads.
 from math import atan2, pi, sqrt
 
 from dilatedem.jit import device, item
-from dilatedem.numerics.vector import accumulate, cross, load, scale, sub
+from dilatedem.numerics.vector import accumulate, add, cross, load, scale, sub
 from dilatedem.state.record import ANGLE_BINS, HEIGHT_BINS
 
 
@@ -36,8 +36,9 @@ def gather_contacts(awake, count, dt, floating, bodies, pairs, ledger, loads):
             continue
         a, b = pairs.a[k], pairs.b[k]
         force = load(pairs.force, k)
-        torque_a = cross(load(pairs.point, k), force)
-        torque_b = cross(load(pairs.arm, k), force)
+        couple = load(pairs.couple, k)
+        torque_a = add(couple, cross(load(pairs.point, k), force))
+        torque_b = add(couple, cross(load(pairs.arm, k), force))
         accumulate(bodies.contact_force, a, scale(-1.0, force))
         accumulate(bodies.contact_torque, a, scale(-1.0, torque_a))
         accumulate(bodies.contact_force, b, force)
@@ -61,7 +62,7 @@ def _load_structure(s, bodies, pairs, k, b, force, dt, loads):
     arm = load(pairs.arm, k)
     height = bodies.position[b, 2] + arm[2]
     lever = (arm[0], arm[1], height)
-    moment = cross(lever, force)
+    moment = add(load(pairs.couple, k), cross(lever, force))
     loads.step_contacts[s] += 1
     for m in range(3):
         loads.step_load[s, m] += force[m]

@@ -6,15 +6,19 @@ results, is said in docs/theory.md.
 
 from math import pi, sqrt
 
+from dilatedem.contact.kinematics import relative_velocity
 from dilatedem.contact.patch import (
     EDGE_CROSSING,
     EDGE_FACE,
+    EDGE_PARALLEL,
     FACE_FACE,
     VERTEX_EDGE,
     VERTEX_FACE,
     VERTEX_VERTEX,
+    contact_patch,
 )
-from dilatedem.jit import device
+from dilatedem.jit import device, item
+from dilatedem.numerics.vector import dot, sub
 
 #: shape factor of a polygonal face, Liu 2015 below Eq. (24)
 BETA = 1.02
@@ -53,3 +57,80 @@ def damping_coefficient(damping, mass, stiffness):
     return damping * sqrt(2.0 * mass * stiffness)
 
 
+@device
+def power(overlap, exponent):
+    """overlap^exponent; the exponents that occur need no general power."""
+    if exponent == 1.5:
+        return overlap * overlap**0.5
+    if exponent == 0.5:
+        return overlap**0.5
+    if exponent == 1.0:
+        return overlap
+    if exponent == 0.0:
+        return 1.0
+    return overlap**exponent
+
+
+@device
+def stored_energy(stiffness, exponent, overlap):
+    """Elastic energy [J] of F = K overlap^kappa."""
+    return stiffness * overlap * power(overlap, exponent) / (exponent + 1.0)
+
+
+@item
+def _law_gain(pairs, k, dt, mode, overlap, stiffness, exponent, elastic, elastic_power):
+    """Energy that the normal law made in the last step [J]: more is stored than the bodies' approach has paid for.
+
+    The stiffness may change at one overlap (mode, size of the patch), and the centroid of a patch may wander to where the overlap
+    is another. For a contact at a point only the first can happen; its overlap is left to the approach, so that an error
+    of the distance would show in the ledger's residual.
+    """
+    old, old_stiffness, old_exponent = pairs.overlap[k], pairs.stiffness[k], pairs.exponent[k]
+    paid = 0.5 * dt * (elastic_power + pairs.elastic_power[k])
+    if mode != pairs.mode[k]:
+        # each mode measures the overlap at a place of its own
+        return stored_energy(stiffness, exponent, overlap) - stored_energy(old_stiffness, old_exponent, old) - paid
+    middle = 0.5 * (overlap + old)
+    gain = stored_energy(stiffness, exponent, middle) - stored_energy(old_stiffness, old_exponent, middle)
+    if mode >= EDGE_PARALLEL:  # a patch
+        gain += 0.5 * (elastic + old_stiffness * power(old, old_exponent)) * (overlap - old) - paid
+    return gain
+
+
+@item
+def press_liu2015(k, dt, shapes, vertex, face_normal, solids, bodies, pairs, contact, offset, normal, pa, pb, gap, scratch):
+    """The normal part of contact k by the paper's laws.
+
+    Arguments as in `collide`; offset, normal, pa, pb: centroid of b, unit normal, witness points, from a's centroid; gap < 0 [m].
+    Returns mode, size [m or m2], overlap [m], point of application and direction of the force on b, its elastic part and the whole
+    [N], approach speed [m/s], power that the elastic part takes up [W], shear stiffness [N/m], energy stored [J], energy that the
+    law made in the last step [J].
+    """
+    a, b = pairs.a[k], pairs.b[k]
+    mode, a_lower, point, overlap, size, sine = contact_patch(
+        vertex, face_normal, shapes, pairs.corners[k], pairs.corner_a[k], pairs.corner_b[k], a, b, offset, normal, pa, pb, -gap,
+        scratch,
+    )  # fmt: skip
+    modulus = 1.0 / (solids.compliance[a] + solids.compliance[b])
+    first, second = shapes.radius[a], shapes.radius[b]
+    if not a_lower:
+        first, second = second, first
+    stiffness, exponent = normal_stiffness(mode, modulus, first, second, size, sine)
+    velocity = relative_velocity(bodies.velocity, bodies.angular_velocity, a, b, point, sub(point, offset))
+    approach = -dot(velocity, normal)
+    mass = 1.0 / (solids.inverse_mass[a] + solids.inverse_mass[b])
+    elastic = stiffness * power(overlap, exponent)
+    viscous = damping_coefficient(contact.damping, mass, stiffness) * power(overlap, exponent - 1.0) * approach
+    normal_force = max(elastic + viscous, 0.0)  # Eq. (3)
+    shear_stiffness = contact.stiffness_ratio * stiffness * power(overlap, exponent - 1.0)
+    elastic_power = elastic * approach
+    gain = 0.0
+    if pairs.overlap[k] > 0.0:
+        gain = _law_gain(pairs, k, dt, mode, overlap, stiffness, exponent, elastic, elastic_power)
+    pairs.stiffness[k] = stiffness
+    pairs.exponent[k] = exponent
+    pairs.tangent[k] = exponent * stiffness * power(overlap, exponent - 1.0)
+    stored = stored_energy(stiffness, exponent, overlap)
+    return (
+        mode, size, overlap, point, normal, elastic, normal_force, approach, elastic_power, shear_stiffness, stored, gain,
+    )  # fmt: skip

@@ -1,6 +1,5 @@
 """The energies of an instant: with the running sums of `state.record.Ledger` they close the ledger of a run."""
 
-from dilatedem.contact.laws import stored_energy
 from dilatedem.jit import kernel
 from dilatedem.motion.integrate import kinetic_energy
 from dilatedem.numerics.rotation import rotation_matrix
@@ -33,6 +32,5 @@ def instant_energies(model, bodies, pairs, workspace):
     for k in range(pairs.count[0]):
         if pairs.overlap[k] > 0.0:
             slip = load(pairs.slip, k)
-            elastic += stored_energy(pairs.stiffness[k], pairs.exponent[k], pairs.overlap[k])
-            elastic += 0.5 * pairs.shear_stiffness[k] * dot(slip, slip)
+            elastic += pairs.stored[k] + 0.5 * pairs.shear_stiffness[k] * dot(slip, slip)
     return kinetic, weight, buoyancy, elastic

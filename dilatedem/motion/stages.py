@@ -4,7 +4,8 @@ A parallel loop's body is one call of an ordinary device function, and every ite
 on the number of threads. (Writes through a NamedTuple *inside* a prange would be lost without an error.)
 """
 
-from dilatedem.contact.collide import collide
+from dilatedem.contact.collide import CONSISTENT, collide
+from dilatedem.contact.consistent.press import DEEPEST_SHARE
 from dilatedem.jit import by_team, device, item, prange, shared_loop
 from dilatedem.motion.integrate import complete_spin, drift, kick
 from dilatedem.state.clock import Status
@@ -128,13 +129,16 @@ def load_and_kick(team, dt, model, bodies, workspace):
 
 
 @device
-def too_deep(count, shapes, pairs, workspace, clock):
+def too_deep(count, shapes, contact, pairs, workspace, clock):
     """Whether some overlap is past what the method can mean; status and culprits go to `clock`."""
     for w in range(count):
         k = workspace.awake[w]
         a, b = pairs.a[k], pairs.b[k]
         radius = shapes.radius[a] if shapes.kind[b] != 0 else min(shapes.radius[a], shapes.radius[b])
-        if pairs.overlap[k] > DEEPEST * radius:
+        limit = DEEPEST * radius
+        if contact.model == CONSISTENT:
+            limit = min(limit, DEEPEST_SHARE * (shapes.radius[a] + shapes.radius[b]))
+        if pairs.overlap[k] > limit:
             clock.status[0] = TOO_DEEP
             clock.culprit[0], clock.culprit[1] = a, b
             clock.measure[0] = pairs.overlap[k]

@@ -33,7 +33,7 @@ def advance(team, model, bodies, pairs, spare, cells, workspace, ledger, loads, 
         gather_contacts(workspace.awake, awake, dt, model.floating, bodies, pairs, ledger, loads)
         load_and_kick(team, dt, model, bodies, workspace)
         record_loads(loads)
-        if too_deep(awake, model.shapes, pairs, workspace, clock):
+        if too_deep(awake, model.shapes, model.contact, pairs, workspace, clock):
             status = clock.status[0]
             break
     complete_spins(model, bodies)

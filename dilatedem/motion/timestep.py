@@ -8,11 +8,10 @@ from math import pi, sqrt
 
 import numpy as np
 
-from dilatedem.contact.laws import power
+from dilatedem.contact.kinematics import mobility
 from dilatedem.contact.liu2015 import BETA
-from dilatedem.jit import device, kernel
-from dilatedem.numerics.rotation import rotation_matrix, to_body
-from dilatedem.numerics.vector import cross, load
+from dilatedem.jit import kernel
+from dilatedem.numerics.vector import load
 
 #: impact speed, as a share of sqrt(gravity x reach), for which contacts are laid out where nothing moves yet
 SETTLING_SPEED = 0.5
@@ -81,18 +80,6 @@ def _largest_face(shapes, i: int) -> float:
     return largest
 
 
-@device
-def _mobility(i, solids, orientation, lever, normal):
-    """1/m' [1/kg] of body i at `lever` from its centroid along the unit vector `normal`."""
-    q = orientation
-    arm = to_body(rotation_matrix(q[i, 0], q[i, 1], q[i, 2], q[i, 3]), cross(lever, normal))
-    total = solids.inverse_mass[i]
-    for r in range(3):
-        for c in range(3):
-            total += arm[r] * solids.inverse_inertia[i, r, c] * arm[c]
-    return total
-
-
 @kernel
 def assembled_frequency(model, bodies, pairs, stiffness):
     """Upper bound of the highest angular frequency [rad/s] of the normal springs that are open now (friction springs left out).
@@ -104,12 +91,10 @@ def assembled_frequency(model, bodies, pairs, stiffness):
         stiffness[i] = 0.0
     for k in range(pairs.count[0]):
         if pairs.overlap[k] > 0.0:
-            exponent = pairs.exponent[k]
-            tangent = exponent * pairs.stiffness[k] * power(pairs.overlap[k], exponent - 1.0)
-            normal, a, b = load(pairs.normal, k), pairs.a[k], pairs.b[k]
+            tangent, normal, a, b = pairs.tangent[k], load(pairs.normal, k), pairs.a[k], pairs.b[k]
             both = 2.0 if model.solids.inverse_mass[a] > 0.0 and model.solids.inverse_mass[b] > 0.0 else 1.0
-            stiffness[a] += both * tangent * _mobility(a, model.solids, bodies.orientation, load(pairs.point, k), normal)
-            stiffness[b] += both * tangent * _mobility(b, model.solids, bodies.orientation, load(pairs.arm, k), normal)
+            stiffness[a] += both * tangent * mobility(a, model.solids, bodies.orientation, load(pairs.point, k), normal)
+            stiffness[b] += both * tangent * mobility(b, model.solids, bodies.orientation, load(pairs.arm, k), normal)
     most = 0.0
     for i in range(len(stiffness)):
         most = max(most, stiffness[i])

@@ -12,7 +12,7 @@ class Feature(IntEnum):
 
 
 class Mode(IntEnum):
-    """Contact mode; the law of each is in `contact.laws`. Contacts at a point come first, then patches."""
+    """Contact mode; the law of each is in `contact.liu2015`. Contacts at a point come first, then patches."""
 
     VERTEX_VERTEX = 0
     VERTEX_EDGE = 1

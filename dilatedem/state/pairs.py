@@ -27,8 +27,10 @@ class Pairs(NamedTuple):
     # memory of an open contact; overlap > 0 says that there is one
     overlap: np.ndarray  # (m,) m, at the centroid of the patch
     mode: np.ndarray  # (m,) contact mode
-    stiffness: np.ndarray  # (m,) K of F = K overlap^exponent, N/m^exponent
-    exponent: np.ndarray  # (m,) kappa
+    stiffness: np.ndarray  # (m,) K of F = K overlap^exponent, N/m^exponent (liu2015)
+    exponent: np.ndarray  # (m,) kappa (liu2015)
+    stored: np.ndarray  # (m,) J, elastic energy of the normal force
+    tangent: np.ndarray  # (m,) N/m, what the normal force rises by with the overlap
     shear_stiffness: np.ndarray  # (m,) tangential spring, N/m
     slip: np.ndarray  # (m, 3) m, elongation of the tangential spring
     damping_power: np.ndarray  # (m,) W
@@ -37,6 +39,7 @@ class Pairs(NamedTuple):
     force: np.ndarray  # (m, 3) N, on b
     point: np.ndarray  # (m, 3) m, from the centroid of a
     arm: np.ndarray  # (m, 3) m, from the centroid of b to the same point
+    couple: np.ndarray  # (m, 3) N m, on b, along the normal force (consistent: what is left of its moment at `point`)
     normal_force: np.ndarray  # (m,) N
     size: np.ndarray  # (m,) length or area of the patch, m or m2; 1 for a contact at a point
     loss_damping: np.ndarray  # (m,) J lost in the last step
@@ -44,7 +47,7 @@ class Pairs(NamedTuple):
     gain_law: np.ndarray  # (m,) J made in the last step by the laws: more stored than the bodies have paid for
 
 
-_WIDTH = {"corner_a": SIMPLEX, "corner_b": SIMPLEX, "normal": 3, "slip": 3, "force": 3, "point": 3, "arm": 3}
+_WIDTH = {"corner_a": SIMPLEX, "corner_b": SIMPLEX, "normal": 3, "slip": 3, "force": 3, "couple": 3, "point": 3, "arm": 3}
 _WHOLE = {"count", "a", "b", "corners", "corner_a", "corner_b", "mode"}
 _ALONE = {"count": (1,), "frame": (2,), "limit": (1,)}
 

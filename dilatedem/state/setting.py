@@ -5,9 +5,10 @@ from typing import NamedTuple
 
 
 class ContactModel(IntEnum):
-    """Which laws hold; `contact.laws` chooses by it."""
+    """Which laws hold; `contact.collide` chooses by it."""
 
     LIU2015 = 0
+    CONSISTENT = 1
 
 
 class ContactSetting(NamedTuple):

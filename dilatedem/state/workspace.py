@@ -22,7 +22,7 @@ class Workspace(NamedTuple):
     face_normal: np.ndarray  # (f, 3) in world directions
     turned: np.ndarray  # (n,) step at which a body's shape was turned last
     awake: np.ndarray  # (m,) pairs to evaluate in this step
-    clip: np.ndarray  # (threads, 2, MOST_CORNERS, 3) polygons being clipped
+    clip: np.ndarray  # (threads, 6, MOST_CORNERS, 3) polygons being clipped, faces that look at each other
     wet: np.ndarray  # (floating, 5) submerged volume, centre of buoyancy (body frame), wetted area
     hull: np.ndarray  # (threads, h, 4) outer vertices of one body, and their heights
 
@@ -40,7 +40,7 @@ def make_workspace(shapes, hulls, capacity: int, threads: int) -> Workspace:
         face_normal=shapes.face_normal.copy(),
         turned=np.full(len(shapes.radius), -1, np.int64),
         awake=np.zeros(capacity, np.int64),
-        clip=np.zeros((threads, 2, MOST_CORNERS, 3)),
+        clip=np.zeros((threads, 6, MOST_CORNERS, 3)),
         wet=np.zeros((len(hulls.prism), 5)),
         hull=np.zeros((threads, most, 4)),
     )
