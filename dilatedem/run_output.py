@@ -1,14 +1,16 @@
 """What a run writes, and when: the observers of `output` wired to one simulation."""
 
 import time
+from collections.abc import Callable
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
 import numpy as np
 
-from dilatedem import __version__
+from dilatedem import __version__, error_check
 from dilatedem.case import write
 from dilatedem.composition import ordered_structures
+from dilatedem.errors import Interrupted
 from dilatedem.geometry.polyhedron import Polyhedron
 from dilatedem.output import checkpoint, folder
 from dilatedem.output.archive import ContactStatistics, FloeTable, LoadMap, write_run_h5
@@ -67,6 +69,7 @@ class RunOutput:
         self._structures = ordered_structures(simulation.scene)
         self._writer = SnapshotWriter([body.shape.outer for body in simulation.scene.bodies])
         self._began = time.perf_counter()
+        self._checked: dict = {}  # what the check of the time step found
         output, dt = simulation.case.output, simulation.dt
         self._forces = Schedule(output.force_interval, dt)
         self._energy = Schedule(output.energy_interval, dt)
@@ -94,11 +97,15 @@ class RunOutput:
     def next_due(self, step: int) -> int:
         """The next step at which something is written."""
         schedules = (self._forces, self._energy, self._snapshots, self._track, self._checkpoints)
-        return min(schedule.next_due(step) for schedule in schedules)
+        watch = self._simulation.state.watch
+        return min(schedule.next_due(step) for schedule in (*schedules, *([watch.windows] if watch else [])))
 
     def observe(self, *, last: bool = False) -> None:
         """Write what is due at the present step (`last`: the run's last, which closes every window)."""
         step = int(self._simulation.state.clock.step[0])
+        watch = self._simulation.state.watch
+        if watch and (last or self._forces.is_due(step) or watch.windows.is_due(step)):
+            watch.look(self._simulation.state)  # before the window of forces.csv is closed
         if step > 0 and (last or self._forces.is_due(step)):
             self._write_forces()
         if last or self._energy.is_due(step):
@@ -110,8 +117,24 @@ class RunOutput:
         if not last and self._checkpoints.is_due(step):
             self._save("running")
 
-    def complete(self) -> None:
-        self._save("completed")
+    def complete(self, asked: Callable[[], bool] = lambda: False) -> str:
+        """The run is at its end: check its time step, if the case wants it. Returns what that found, in a sentence.
+
+        asked  whether the user wants to end; then Interrupted is raised
+        """
+        if not self._simulation.state.watch:
+            self._save("completed")
+            return ""
+        self._save("running")  # a kill during the check costs the check alone
+        try:
+            self._checked = error_check.check(self._simulation, [structure.name for structure in self._structures], asked)
+        except Interrupted:
+            self.interrupt()
+            raise
+        self._checked["wall_s"] = time.perf_counter() - self._began
+        self._note_wall_time()
+        self._write_summary("completed", "")
+        return self._checked["message"]
 
     def interrupt(self) -> None:
         self._save("interrupted", "stopped by the user; --resume goes on")
@@ -147,12 +170,13 @@ class RunOutput:
             table.flush(durable=True)
 
     def _meta(self) -> dict:
+        watch = self._simulation.state.watch
         return {
             "version": __version__,
             "dt": self._simulation.dt,
             "offsets": {name: table.offset for name, table in self._tables.items()},
             "totals": asdict(self.totals),
-        }
+        } | ({"watch": watch.figures()} if watch else {})
 
     def _write_forces(self) -> None:
         loads, time_s = self._simulation.state.loads, self._simulation.time_s
@@ -257,7 +281,7 @@ class RunOutput:
         case, step = simulation.case, int(simulation.state.clock.step[0])
         terms = {f"{name}_J": value for name, value in simulation.energies().items()} if step else {}
         work = abs(terms.get("work_drag_J", 0.0))
-        stepping_s = totals.wall_s - totals.compile_s
+        stepping_s = totals.wall_s - totals.compile_s - self._checked.get("wall_s", 0.0)
         write_summary(self._out / folder.SUMMARY, {
             "status": status, "message": message, "title": case.title, "version": __version__, "versions": versions(),
             "seed": case.field.seed, "floes": simulation.model.floating, "steps": step, "dt_s": simulation.dt,
@@ -273,7 +297,7 @@ class RunOutput:
                 "model": case.contact.model, "open": simulation.contacts,
                 "largest_overlap_m": float(simulation.state.loads.mode_overlap.max()),
             },
-        })  # fmt: skip
+        } | ({"error_check": self._checked} if self._checked else {}))  # fmt: skip
 
 
 def _headline_loads(peak: dict | None) -> dict:

@@ -18,6 +18,7 @@ from dilatedem.composition import (
     load_map_geometry,
     ordered_structures,
 )
+from dilatedem.error_check import Watch
 from dilatedem.errors import CaseError, Interrupted, SimulationStopped
 from dilatedem.interruption import Interruption
 from dilatedem.jit import Alone, Team, is_cached, start_threads
@@ -50,9 +51,11 @@ class State:
     loads: Loads
     clock: Clock
     totals: Totals
+    watch: Watch | None = None  # of the highest load, where `time.error_check` asks for it
 
     def groups(self) -> dict:
-        return {name: getattr(self, name) for name in ("bodies", "pairs", "ledger", "loads", "clock")}
+        own = {name: getattr(self, name) for name in ("bodies", "pairs", "ledger", "loads", "clock")}
+        return own | (self.watch.groups() if self.watch else {})
 
 
 @dataclass
@@ -86,11 +89,13 @@ class Simulation:
         model = build_model(case, scene)
         bodies = initial_bodies(case, scene, model)
         critical = critical_step(model, bodies)
+        dt = time_step(case, critical)
         state = State(
             bodies, empty_pairs(PAIRS_PER_BODY * len(scene.bodies) + 64), empty_ledger(),
             empty_loads(*load_map_geometry(case, scene)), clock_at_start(), Totals(),
+            Watch(dt) if case.time.error_check else None,
         )  # fmt: skip
-        return cls(case, scene, model, state, time_step(case, critical), critical, threads)
+        return cls(case, scene, model, state, dt, critical, threads)
 
     @property
     def time_s(self) -> float:
@@ -212,9 +217,7 @@ def compile_kernels(threads: int = 1) -> None:
     simulation.assembled_step_ratio()
 
 
-def run(
-    case: Case, out: Path, *, threads: int = 1, resume: bool = False, overwrite: bool = False, quiet: bool = False
-) -> Path:
+def run(case: Case, out: Path, *, threads: int = 1, resume: bool = False, overwrite: bool = False, quiet: bool = False) -> Path:
     """Simulate a case into the run folder `out`; returns it.
 
     Raises CaseError (nothing written), SimulationStopped or Interrupted (state saved).
@@ -271,7 +274,9 @@ def _loop(simulation: Simulation, output: RunOutput, steps: int, progress: Progr
         if interruption.asked and clock.step[0] < steps:
             output.interrupt()
             raise Interrupted(f"interrupted at t = {simulation.time_s:.4f} s; the state is saved, --resume goes on from it")
-    output.complete()
+    found = output.complete(lambda: interruption.asked)
+    if found:
+        progress.message(found)
 
 
 def _stop_on_fault(simulation: Simulation, output: RunOutput, status: Status) -> None:
@@ -297,6 +302,8 @@ def _load_checkpoint(out: Path, case: Case, simulation: Simulation) -> dict:
     for name, current in state.groups().items():
         setattr(state, name, checkpoint.restore(type(current), groups[name], where=str(out / folder.CHECKPOINT)))
     state.totals = Totals(**meta["totals"])
+    if state.watch:
+        state.watch.restore(groups, meta["watch"], where=str(out / folder.CHECKPOINT))
     simulation._make_room()
     return meta
 

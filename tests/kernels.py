@@ -34,11 +34,11 @@ def patch_of_pair(shapes, pairs, vertex, face_normal, k, offset, normal, pa, pb,
 
 
 @kernel
-def energy_of_pair(shapes, pairs, vertex, face_normal, k, offset, normal, pb, modulus, scratch):
+def energy_of_pair(shapes, pairs, vertex, face_normal, k, offset, normal, pb, overlap, modulus, scratch):
     """`pose_energy` of pair k, its bodies turned and its corners known by `distance_of_pair`."""
     return pose_energy(
         vertex, face_normal, shapes, pairs.a[k], pairs.b[k], pairs.corner_a[k, 0], pairs.corner_b[k, 0], offset, normal, pb,
-        modulus, scratch,
+        overlap, modulus, scratch,
     )  # fmt: skip
 
 

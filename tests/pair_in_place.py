@@ -91,8 +91,9 @@ class PairInPlace:
         distance, normal, pa, pb, offset = self._evaluate()
         if distance >= self.shapes.radius.sum():
             return None
-        energy, force, moment, mode, size = energy_of_pair(
-            self.shapes, self.pairs, self._vertex, self._face_normal, 0, offset, normal, pb, modulus, self._scratch
+        energy, force, moment, mode, size, _ = energy_of_pair(
+            self.shapes, self.pairs, self._vertex, self._face_normal, 0, offset, normal, pb,
+            self.shapes.radius.sum() - distance, modulus, self._scratch
         )
         return Press(energy, np.array(force), np.array(moment), Mode(mode), size)
 

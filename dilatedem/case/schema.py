@@ -50,15 +50,11 @@ class IceField(Table):
     source: Literal["voronoi", "bodies"] = key(
         "voronoi", "", "`voronoi` generates floes; `bodies` takes the `[[body]]` entries and nothing else."
     )
-    floe_size: Positive | None = key(
-        None, "m", "Square root of the mean floe area; 2.8 unless `floe_count` is given."
-    )
+    floe_size: Positive | None = key(None, "m", "Square root of the mean floe area; 2.8 unless `floe_count` is given.")
     floe_count: Annotated[int, Field(ge=1)] | None = key(
         None, "", "Number of floes before those that touch a structure are left out; instead of `floe_size`."
     )
-    concentration: Annotated[float, Field(gt=0, lt=1)] = key(
-        0.64, "", "Share of the domain's area that is covered by ice."
-    )
+    concentration: Annotated[float, Field(gt=0, lt=1)] = key(0.64, "", "Share of the domain's area that is covered by ice.")
     seed: Annotated[int, Field(ge=0, le=LARGEST_INTEGER)] = key(
         1, "", "Seed of the random points; the same seed gives the same field."
     )
@@ -80,13 +76,12 @@ class Ice(Table):
 
     density: Positive = key(915.0, "kg/m3", "Density of the ice.")
     thickness: Positive = key(0.5, "m", "Outer thickness of a floe.")
-    dilated_radius: Positive = key(
-        0.04, "m", "Radius by which a floe's edges and corners are rounded; at most half the thickness."
-    )
+    dilated_radius: Positive = key(0.04, "m", "Radius by which a floe's edges and corners are rounded; at most half the thickness.")
     elastic_modulus: Positive = key(1.0e9, "Pa", "Young's modulus in contact.")
     poisson_ratio: PoissonRatio = key(0.3, "", "Poisson's ratio.")
     initial_velocity: Literal["current"] | Vector3 = key(
-        "current", "m/s",
+        "current",
+        "m/s",
         "Velocity of the generated floes at the start: `[u, v, w]`, or `current` for that of the water "
         "(at rest where the water is off).",
         allowed='must be "current" or a list of 3 numbers',
@@ -120,9 +115,9 @@ class Contact(Table):
     """The contact laws between floes and with structures."""
 
     model: Literal["liu2015", "consistent"] = key(
-        "liu2015", "",
-        "`liu2015`: the paper's laws, mode by mode; `consistent`: laws that agree with elasticity and with "
-        "each other.",
+        "liu2015",
+        "",
+        "`liu2015`: the paper's laws, mode by mode; `consistent`: laws that agree with elasticity and with each other.",
     )
     damping: NonNegative = key(0.36, "", "Damping coefficient of the normal force; 0 is elastic.")
     friction: NonNegative = key(0.1, "", "Coefficient of friction.")
@@ -134,11 +129,14 @@ class Time(Table):
 
     duration: Positive = key(100.0, "s", "Simulated time.")
     step: Literal["auto"] | Positive = key(
-        "auto", "s", "Time step, or `auto` for `step_fraction` of the critical one.",
+        "auto",
+        "s",
+        "Time step, or `auto` for `step_fraction` of the critical one.",
         allowed='must be "auto" or a number greater than 0',
     )
-    step_fraction: Annotated[float, Field(gt=0, lt=1)] = key(
-        0.1, "", "The automatic step as a share of the critical step."
+    step_fraction: Annotated[float, Field(gt=0, lt=1)] = key(0.1, "", "The automatic step as a share of the critical step.")
+    error_check: bool = key(
+        False, "", "`true` replays the highest load with half the step once the run is done; the change goes to summary.json."
     )
 
     def faults(self) -> list[Fault]:
@@ -154,7 +152,9 @@ class Output(Table):
     force_interval: Positive = key(0.01, "s", "Window of one row of forces.csv.")
     energy_interval: Positive = key(0.1, "s", "Between two rows of energy.csv.")
     track: Literal["all"] | list[Annotated[int, Field(ge=0)]] = key(
-        [], "", 'Numbers of the bodies whose motion goes to bodies.csv, or `"all"`.',
+        [],
+        "",
+        'Numbers of the bodies whose motion goes to bodies.csv, or `"all"`.',
         allowed='must be "all" or a list of body numbers, from 0',
     )
     track_interval: Positive = key(0.01, "s", "Between two rows of a tracked body in bodies.csv.")

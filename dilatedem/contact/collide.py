@@ -1,12 +1,14 @@
 """One pair of bodies: gap, patch, forces, and the energy that the step cost. The result is written to the pair alone."""
 
+from math import sqrt
+
 from dilatedem.contact.closest import closest_points, farthest_vertex
 from dilatedem.contact.consistent.press import press_consistent
-from dilatedem.contact.friction import carried_over, rescaled, slide
+from dilatedem.contact.friction import carried_over, length, rescaled, slide, viscous_share
 from dilatedem.contact.kinematics import relative_velocity
 from dilatedem.contact.liu2015 import press_liu2015
 from dilatedem.jit import device, item
-from dilatedem.numerics.vector import along, dot, load, norm, scale, store, sub
+from dilatedem.numerics.vector import accumulate, along, dot, load, norm, scale, store, sub
 from dilatedem.state.setting import ContactModel
 
 CONSISTENT = int(ContactModel.CONSISTENT)
@@ -40,8 +42,7 @@ def _meet_half_space(vertex, shapes, pairs, k, a, b, position):
 @device
 def _end_contact(pairs, k, dt):
     """No overlap, no spring, no force. What the spring still held is lost to friction."""
-    slip = load(pairs.slip, k)
-    pairs.loss_friction[k] = 0.5 * pairs.shear_stiffness[k] * dot(slip, slip)
+    pairs.loss_friction[k] = 0.5 * pairs.shear_stiffness[k] * length(load(pairs.slip, k), pairs.wrung[k]) ** 2
     pairs.loss_damping[k] = 0.5 * dt * pairs.damping_power[k]
     pairs.gain_law[k] = 0.0
     pairs.damping_power[k] = 0.0
@@ -49,6 +50,7 @@ def _end_contact(pairs, k, dt):
     pairs.overlap[k] = 0.0
     pairs.stored[k] = 0.0
     pairs.tangent[k] = 0.0
+    pairs.wrung[k] = 0.0
     pairs.normal_force[k] = 0.0
     for i in range(3):
         pairs.slip[k, i] = 0.0
@@ -85,35 +87,59 @@ def collide(k, dt, shapes, vertex, face_normal, solids, bodies, pairs, contact, 
         pressed = press_liu2015(
             k, dt, shapes, vertex, face_normal, solids, bodies, pairs, contact, offset, normal, pa, pb, gap, scratch
         )
-    mode, size, overlap, point, direction, elastic, normal_force, approach, elastic_power, shear_stiffness, stored, gain = pressed
+    mode, size, overlap, point, direction, normal_force, elastic_power, damping_power, shear_stiffness, dashpot = pressed[:10]
+    stored, gain = pressed[10], pressed[11]
     arm = sub(point, offset)
 
-    # tangential: Eqs. (5), (6)
-    before = carried_over(load(pairs.slip, k), direction)
+    # tangential: Eqs. (5), (6); the turning of a patch about its normal stretches the same spring, at the arm `grip`
+    before, before_turned = carried_over(load(pairs.slip, k), direction), pairs.wrung[k]
     slid = relative_velocity(bodies.middle_velocity, bodies.middle_angular_velocity, a, b, point, arm)
     slid = along(slid, -dot(slid, direction), direction)
-    yielded, held_before = 0.0, -1.0
-    if pairs.overlap[k] > 0.0:
-        held_before = pairs.shear_stiffness[k] * norm(before)
-    if contact.model == CONSISTENT:
-        before, yielded = rescaled(before, pairs.shear_stiffness[k], shear_stiffness)
-    slip, slipped = slide(before, scale(dt, slid), shear_stiffness, contact.friction * normal_force)
+    grip, turned = pairs.grip[k], 0.0
+    if grip > 0.0:
+        turning = sub(load(bodies.middle_angular_velocity, b), load(bodies.middle_angular_velocity, a))
+        turned = grip * dot(turning, direction)
+    old_stiffness, opened = pairs.shear_stiffness[k], pairs.overlap[k] == 0.0
+    shrink, stretch = 1.0, dt
+    if contact.model == CONSISTENT and not opened:
+        shrink, stretch = rescaled(old_stiffness, shear_stiffness)
+        stretch *= dt
+    slip, wrung, slipped = slide(
+        scale(shrink, before), shrink * before_turned, scale(stretch, slid), stretch * turned, shear_stiffness,
+        contact.friction * normal_force,
+    )  # fmt: skip
     force = along(scale(normal_force, direction), -shear_stiffness, slip)
+    torsion = shear_stiffness * wrung
+    if dashpot > 0.0:
+        dashpot *= sqrt(contact.stiffness_ratio)
+        sliding = relative_velocity(bodies.velocity, bodies.angular_velocity, a, b, point, arm)
+        sliding = along(sliding, -dot(sliding, direction), direction)
+        turning = sub(load(bodies.angular_velocity, b), load(bodies.angular_velocity, a))
+        turned_now = grip * dot(turning, direction)
+        share = viscous_share(
+            slip, wrung, sliding, turned_now, shear_stiffness, dashpot, contact.friction * normal_force
+        )
+        force = along(force, -share * dashpot, sliding)
+        torsion += share * dashpot * turned_now
+        damping_power += share * dashpot * length(sliding, turned_now) ** 2
 
     # what the step cost, as trapezoids in time: the kinetic energy of the Verlet steps changes by these, up to dt^2/(4 m) |dF|^2
-    damping_power = (normal_force - elastic) * approach
-    held = shear_stiffness * norm(slip)
-    if held_before < 0.0:
-        held_before = held
+    if contact.model == CONSISTENT:
+        # what the spring took up on the way, less what it has now
+        taken = old_stiffness * (dot(before, slid) + before_turned * turned)
+        taken += shear_stiffness * (dot(slip, slid) + wrung * turned)
+        kept = shear_stiffness * length(slip, wrung) ** 2 - old_stiffness * length(before, before_turned) ** 2
+        rubbed = 0.5 * (dt * taken - kept)
     else:
-        softened = 0.5 * (pairs.shear_stiffness[k] - shear_stiffness) * dot(before, slip)
-        if contact.model != CONSISTENT:
-            gain -= softened
-        elif softened > 0.0:
-            yielded += softened
+        held = shear_stiffness * norm(slip)
+        held_before = held
+        if not opened:
+            gain += 0.5 * (shear_stiffness - old_stiffness) * dot(before, slip)
+            held_before = old_stiffness * norm(before)
+        rubbed = 0.5 * (held + held_before) * slipped
     pairs.gain_law[k] = gain
     pairs.loss_damping[k] = 0.5 * dt * (damping_power + pairs.damping_power[k])
-    pairs.loss_friction[k] = 0.5 * (held + held_before) * slipped + yielded
+    pairs.loss_friction[k] = rubbed
 
     pairs.damping_power[k] = damping_power
     pairs.elastic_power[k] = elastic_power
@@ -123,6 +149,9 @@ def collide(k, dt, shapes, vertex, face_normal, solids, bodies, pairs, contact, 
     pairs.shear_stiffness[k] = shear_stiffness
     pairs.normal_force[k] = normal_force
     pairs.size[k] = size
+    pairs.wrung[k] = wrung
+    if torsion != 0.0:
+        accumulate(pairs.couple, k, scale(-torsion * grip, direction))
     store(pairs.slip, k, slip)
     store(pairs.force, k, force)
     store(pairs.point, k, point)

@@ -24,23 +24,48 @@ def carried_over(slip, normal):
 
 
 @device
-def slide(slip, sliding, stiffness, limit):
-    """Spring after the tangential displacement `sliding` [m], no stronger than `limit` [N], and how far the contact slipped [m]."""
-    stretched = add(slip, sliding)
-    length = sqrt(dot(stretched, stretched))
-    if stiffness * length <= limit:
-        return stretched, 0.0
-    held = limit / stiffness
-    return scale(held / length, stretched), length - held
+def length(slip, turned):
+    """Elongation of the spring: of its vector in the tangent plane, and of the turning about the normal at the arm of the patch."""
+    return sqrt(dot(slip, slip) + turned * turned)
 
 
 @device
-def rescaled(slip, old, new):
-    """The spring vector when its stiffness has changed from `old` to `new` [N/m], and the energy that this cost [J].
+def slide(slip, turned, sliding, turning, stiffness, limit):
+    """Spring after the displacement `sliding` and the turning `turning` [m], no stronger than `limit` [N]; how far it slipped [m].
 
-    A stiffer spring keeps its force, or it would have energy it was never given; a softer one keeps its elongation, and what its
-    force loses on the way is left to the caller (it depends on where the step ends). After Mindlin and Deresiewicz (1953).
+    Sliding and turning share the limit: what a patch needs to hold a moment it cannot use against sliding.
+    """
+    stretched, wrung = add(slip, sliding), turned + turning
+    whole = length(stretched, wrung)
+    if stiffness * whole <= limit:
+        return stretched, wrung, 0.0
+    held = limit / stiffness
+    return scale(held / whole, stretched), held / whole * wrung, whole - held
+
+
+@device
+def rescaled(old, new):
+    """What is left of the spring's elongation when its stiffness has changed from `old` to `new` [N/m] in a step, and what part of
+    the step's displacement still stretches it.
+
+    A stiffer spring keeps its force, or it would have energy it was never given: its elongation shrinks, and its force rises by
+    the displacement times the mean stiffness of the step. A softer one keeps its elongation. After Mindlin and Deresiewicz (1953).
     """
     if new <= old or old == 0.0:
-        return slip, 0.0
-    return scale(old / new, slip), 0.5 * old * dot(slip, slip) * (1.0 - old / new)
+        return 1.0, 1.0
+    return old / new, 0.5 * (1.0 + old / new)
+
+
+@device
+def viscous_share(slip, turned, sliding, turning, stiffness, dashpot, limit):
+    """The largest share, 0..1, of a dashpot's force that spring and dashpot together may have within `limit` [N].
+
+    slip, turned: elongation of the spring [m], itself within the limit; sliding, turning: its rate [m/s].
+    """
+    # |f + s g| = limit, f the spring's force, g the dashpot's
+    gg = dashpot * dashpot * (dot(sliding, sliding) + turning * turning)
+    if gg == 0.0:
+        return 1.0
+    fg = stiffness * dashpot * (dot(slip, sliding) + turned * turning)
+    room = limit * limit - stiffness * stiffness * (dot(slip, slip) + turned * turned)
+    return min(1.0, (sqrt(fg * fg + gg * max(room, 0.0)) - fg) / gg)

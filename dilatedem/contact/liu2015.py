@@ -102,9 +102,9 @@ def press_liu2015(k, dt, shapes, vertex, face_normal, solids, bodies, pairs, con
     """The normal part of contact k by the paper's laws.
 
     Arguments as in `collide`; offset, normal, pa, pb: centroid of b, unit normal, witness points, from a's centroid; gap < 0 [m].
-    Returns mode, size [m or m2], overlap [m], point of application and direction of the force on b, its elastic part and the whole
-    [N], approach speed [m/s], power that the elastic part takes up [W], shear stiffness [N/m], energy stored [J], energy that the
-    law made in the last step [J].
+    Returns mode, size [m or m2], overlap [m], point of application and direction of the normal force on b, its size
+    [N], powers that the elastic part and the damping take up [W], shear stiffness [N/m], dashpot beside that spring [N s/m], energy
+    stored [J], energy that the law made in the last step [J].
     """
     a, b = pairs.a[k], pairs.b[k]
     mode, a_lower, point, overlap, size, sine = contact_patch(
@@ -124,6 +124,7 @@ def press_liu2015(k, dt, shapes, vertex, face_normal, solids, bodies, pairs, con
     normal_force = max(elastic + viscous, 0.0)  # Eq. (3)
     shear_stiffness = contact.stiffness_ratio * stiffness * power(overlap, exponent - 1.0)
     elastic_power = elastic * approach
+    damping_power = (normal_force - elastic) * approach
     gain = 0.0
     if pairs.overlap[k] > 0.0:
         gain = _law_gain(pairs, k, dt, mode, overlap, stiffness, exponent, elastic, elastic_power)
@@ -132,5 +133,5 @@ def press_liu2015(k, dt, shapes, vertex, face_normal, solids, bodies, pairs, con
     pairs.tangent[k] = exponent * stiffness * power(overlap, exponent - 1.0)
     stored = stored_energy(stiffness, exponent, overlap)
     return (
-        mode, size, overlap, point, normal, elastic, normal_force, approach, elastic_power, shear_stiffness, stored, gain,
+        mode, size, overlap, point, normal, normal_force, elastic_power, damping_power, shear_stiffness, 0.0, stored, gain,
     )  # fmt: skip

@@ -187,6 +187,8 @@ def _copy(source, i, target, k):
     target.mode[k] = 0 if new else source.mode[i]
     target.stiffness[k] = 0.0 if new else source.stiffness[i]
     target.exponent[k] = 0.0 if new else source.exponent[i]
+    target.wrung[k] = 0.0 if new else source.wrung[i]
+    target.grip[k] = 0.0 if new else source.grip[i]
     target.stored[k] = 0.0 if new else source.stored[i]
     target.tangent[k] = 0.0 if new else source.tangent[i]
     target.shear_stiffness[k] = 0.0 if new else source.shear_stiffness[i]

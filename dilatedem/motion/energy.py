@@ -1,9 +1,10 @@
 """The energies of an instant: with the running sums of `state.record.Ledger` they close the ledger of a run."""
 
+from dilatedem.contact.friction import length
 from dilatedem.jit import kernel
 from dilatedem.motion.integrate import kinetic_energy
 from dilatedem.numerics.rotation import rotation_matrix
-from dilatedem.numerics.vector import dot, load
+from dilatedem.numerics.vector import load
 from dilatedem.water.floating import submerge_tilted
 
 
@@ -31,6 +32,5 @@ def instant_energies(model, bodies, pairs, workspace):
             buoyancy -= surroundings.water_density * surroundings.gravity * volume * height
     for k in range(pairs.count[0]):
         if pairs.overlap[k] > 0.0:
-            slip = load(pairs.slip, k)
-            elastic += pairs.stored[k] + 0.5 * pairs.shear_stiffness[k] * dot(slip, slip)
+            elastic += pairs.stored[k] + 0.5 * pairs.shear_stiffness[k] * length(load(pairs.slip, k), pairs.wrung[k]) ** 2
     return kinetic, weight, buoyancy, elastic

@@ -28,6 +28,9 @@ def describe_run(run: RunFolder) -> str:
         lines.append(f"  {'load':<12}{name}: {load_words(load_statistics(history))}")
     if not run.forces:
         lines.append(f"  {'load':<12}none recorded")
+    checked = (summary.get("error_check") or {}).get("message")
+    if checked:
+        lines.append(f"  {'step error':<12}{checked}")
     share = (summary.get("energy") or {}).get("residual_over_work")
     if share is not None:
         lines.append(f"  {'energy':<12}residual {number(100.0 * share, 3)} % of the work of the current")

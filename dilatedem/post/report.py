@@ -48,9 +48,10 @@ def write_run_report(run: RunFolder, statistics: dict[str, Any], figures: list[t
         status=status_words(run),
         message=run.summary.get("message") or "",
         loads=[
-            {"name": name, "rows": load_rows(entry), "quantiles": quantile_table(entry)}
+            {"name": name, "rows": load_rows(entry) + step_rows(run.summary, name), "quantiles": quantile_table(entry)}
             for name, entry in statistics["loads"].items()
         ],
+        unchecked=unchecked(run.summary),
         figures=inline(figures),
         energy=energy_rows(run, statistics),
         contacts=contact_table(run),
@@ -124,6 +125,27 @@ def load_rows(statistics: dict[str, Any]) -> Rows:
             what = f"share of the load within {half}° of the upstream direction"
             rows.append([what, number(100.0 * part, 3), "%"])
     return rows
+
+
+def step_rows(summary: dict[str, Any], structure: str) -> Rows:
+    """What half the time step changes of the load on a structure; none unless it bore the run's highest load, and was checked."""
+    checked = summary.get("error_check") or {}
+    if checked.get("structure") != structure or not checked.get("change"):
+        return []
+    window = f"impulse from {number(checked['start_s'], 5)} to {number(checked['end_s'], 5)} s"
+    kinds = {"fh_max": "highest horizontal force", "impulse_h": f"horizontal {window}", "impulse_x": f"{window} along x"}
+    changes = {kind: checked["change"].get(kind) for kind in kinds}
+    return [
+        [f"half the time step changes the {kinds[kind]} by", number(100.0 * change, 2), "%"]
+        for kind, change in changes.items()
+        if change is not None
+    ]
+
+
+def unchecked(summary: dict[str, Any]) -> str:
+    """Why the error of the time step is not known although the case asks for it; empty where it is."""
+    checked = summary.get("error_check") or {}
+    return "" if checked.get("change") else str(checked.get("message", ""))
 
 
 def quantile_table(statistics: dict[str, Any]) -> dict[str, Any]:

@@ -33,6 +33,8 @@ class Pairs(NamedTuple):
     tangent: np.ndarray  # (m,) N/m, what the normal force rises by with the overlap
     shear_stiffness: np.ndarray  # (m,) tangential spring, N/m
     slip: np.ndarray  # (m, 3) m, elongation of the tangential spring
+    wrung: np.ndarray  # (m,) m, the same of turning about the normal, at the arm `grip` (consistent)
+    grip: np.ndarray  # (m,) m, root of the patch's mean square distance from its centre (consistent)
     damping_power: np.ndarray  # (m,) W
     elastic_power: np.ndarray  # (m,) W that the elastic force takes up
     # result of the last evaluation

@@ -6,8 +6,9 @@ import subprocess
 import time
 from pathlib import Path
 
+import numpy as np
 import pytest
-from folders import CASES, assert_same_run, command, dilatedem, environment
+from folders import CASES, assert_same_run, command, dilatedem, environment, numbers
 
 from dilatedem import simulation
 from dilatedem.case.load import load
@@ -126,3 +127,61 @@ def test_resuming_needs_a_run_with_a_saved_state_of_the_same_case(crowded, tmp_p
     (tmp_path / "case.toml").write_bytes((crowded / "case.toml").read_bytes())
     with pytest.raises(CaseError, match="no checkpoint to resume from"):
         simulation.run(load(CASES / "crowded.toml"), tmp_path, resume=True, quiet=True)
+
+
+CHECKED = ["time.error_check=true", "time.duration=2.0"]
+
+
+@pytest.fixture(scope="module")
+def checked(tmp_path_factory):
+    return simulation.run(load(CASES / "crowded.toml", CHECKED), tmp_path_factory.mktemp("checked") / "run", quiet=True)
+
+
+def error_check(out: Path) -> dict:
+    """What the check of the time step found, without the time that it took."""
+    found = json.loads((out / "summary.json").read_text())["error_check"]
+    del found["wall_s"]
+    return found
+
+
+@pytest.mark.parametrize("looks", [(0, 13, 17, 41), (29, 2, 3, 1)])
+def test_the_error_of_the_step_is_the_same_for_an_interrupted_run(looks, checked, monkeypatch, tmp_path):
+    case, out = load(CASES / "crowded.toml", CHECKED), tmp_path / "out"
+    for number, count in enumerate(looks):
+        interrupt_after(monkeypatch, count)
+        with pytest.raises(Interrupted, match=r"interrupted at t = \d"):
+            simulation.run(case, out, resume=number > 0, quiet=True)
+        assert "error_check" not in json.loads((out / "summary.json").read_text())
+    monkeypatch.undo()
+    simulation.run(case, out, resume=True, quiet=True)
+    assert_same_run(out, checked)
+    assert error_check(out) == error_check(checked)
+    assert error_check(out)["reproduced"] is True and error_check(out)["at_dt"]["fh_max_N"] > 1e3
+
+
+def test_an_interrupted_check_is_made_again(checked, monkeypatch, tmp_path):
+    case, out = load(CASES / "crowded.toml", CHECKED), tmp_path / "out"
+    simulation.run(load(CASES / "crowded.toml", CHECKED), out, quiet=True)
+    interrupt_after(monkeypatch, 2)  # a completed run has no look at the keyboard but those of the check
+    with pytest.raises(Interrupted, match=r"while the time step was checked; the run is saved, --resume checks again"):
+        simulation.run(case, out, resume=True, quiet=True)
+    summary = json.loads((out / "summary.json").read_text())
+    assert summary["status"] == "interrupted" and summary["simulated_s"] == pytest.approx(2.0)
+    monkeypatch.undo()
+    simulation.run(case, out, resume=True, quiet=True)
+    assert json.loads((out / "summary.json").read_text())["status"] == "completed"
+    assert_same_run(out, checked)
+    assert error_check(out) == error_check(checked)
+
+
+def test_the_check_of_the_step_changes_no_other_file(checked, tmp_path):
+    case = load(CASES / "crowded.toml", [*CHECKED, "time.error_check=false"])
+    out = simulation.run(case, tmp_path / "out", quiet=True)
+    names = [path.relative_to(out) for path in out.rglob("*") if path.is_file()]
+    assert sorted(names) == sorted(path.relative_to(checked) for path in checked.rglob("*") if path.is_file())
+    for name in names:
+        if name.name not in ("case.toml", "restart.h5", "summary.json", "run.h5"):
+            assert (out / name).read_bytes() == (checked / name).read_bytes(), name
+    found, wanted = numbers(checked / "restart.h5"), numbers(out / "restart.h5")
+    assert not [name for name in wanted if not np.array_equal(found[name], wanted[name])]
+    assert found.keys() > wanted.keys()

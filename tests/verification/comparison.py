@@ -1,7 +1,7 @@
 """What the closed forms share: a case file run in this process, and a result set against its target."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -12,13 +12,17 @@ from dilatedem.state.clock import Status
 
 CASES = Path(__file__).parents[2] / "validation" / "closed_forms"
 
+#: contact models that the tests and the table of validation/README.md go through
+MODELS = ("liu2015", "consistent")
+
 
 @dataclass(frozen=True)
 class Comparison:
     """One quantity of a closed form.
 
-    tolerance: largest error allowed, relative to `scale`; scale: what the error is measured by, the target itself unless given
-    (a target of zero needs one).
+    tolerance: largest error allowed, relative to `scale`, infinite where the result is only recorded (a limit of the model, which
+    has no closed form to meet); scale: what the error is measured by, the target itself unless given (a target of zero needs
+    one); model: the contact model, empty where nothing touches.
     """
 
     case: str
@@ -27,6 +31,7 @@ class Comparison:
     result: float
     tolerance: float = 1e-3
     scale: float | None = None
+    model: str = ""
 
     @property
     def error(self) -> float:
@@ -41,16 +46,17 @@ def check(comparisons: list[Comparison]) -> None:
     """Fail with all that do not hold."""
     assert comparisons
     wrong = [
-        f"{c.case}: {c.quantity}: {c.result:.9g} instead of {c.target:.9g}, error {c.error:.2g} > {c.tolerance:g}"
+        f"{c.case} {c.model}: {c.quantity}: {c.result:.9g} instead of {c.target:.9g}, error {c.error:.2g} > {c.tolerance:g}"
         for c in comparisons
         if not c.holds
     ]
     assert not wrong, "\n".join(wrong)
 
 
-def start(case: str, *overrides: str) -> Simulation:
-    """The simulation of `validation/closed_forms/<case>.toml` at t = 0, its loads evaluated."""
-    simulation = Simulation.of_case(load(CASES / f"{case}.toml", overrides))
+def start(case: str, *overrides: str, model: str = "") -> Simulation:
+    """The simulation of `validation/closed_forms/<case>.toml` at t = 0, with the contact model given, its loads evaluated."""
+    chosen = (f"contact.model={model}",) if model else ()
+    simulation = Simulation.of_case(load(CASES / f"{case}.toml", (*chosen, *overrides)))
     assert simulation.evaluate() == Status.DONE
     return simulation
 
@@ -63,6 +69,11 @@ def follow(simulation: Simulation, until: float, read: Callable[[Simulation], ob
         times.append(simulation.time_s)
         seen.append(read(simulation))
     return np.array(times), np.array(seen)
+
+
+def by_model(compare: Callable[[str], list[Comparison]]) -> list[Comparison]:
+    """What `compare` gives for each of `MODELS`, each row with its model."""
+    return [replace(row, model=model) for model in MODELS for row in compare(model)]
 
 
 def advance_to(simulation: Simulation, time: float) -> None:

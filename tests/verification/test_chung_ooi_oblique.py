@@ -14,23 +14,24 @@ of w' here.
 from math import pi
 
 import numpy as np
+import pytest
 
-from tests.verification.comparison import Comparison, check, start
+from tests.verification.comparison import MODELS, Comparison, by_model, check, start
 from tests.verification.point_impact import impacts
 
 
-def _collide(case: str):
+def _collide(case: str, model: str):
     """The simulation at the end of a case; velocity and spin (n, 3) before."""
-    simulation = start(case)
+    simulation = start(case, model=model)
     bodies = simulation.state.bodies
     before = bodies.velocity.copy(), bodies.angular_velocity.copy()
     impacts(simulation)
     return simulation, *before
 
 
-def compare_4() -> list[Comparison]:
+def compare_4(model: str) -> list[Comparison]:
     case, mu, radius = "chung_ooi_4", 0.092, 0.0025
-    simulation, before, _ = _collide(case)
+    simulation, before, _ = _collide(case, model)
     after, spin = simulation.state.bodies.velocity, simulation.state.bodies.angular_velocity
     rows = []
     for i, degrees in enumerate((50, 60, 75)):
@@ -44,9 +45,9 @@ def compare_4() -> list[Comparison]:
     return rows
 
 
-def compare_5() -> list[Comparison]:
+def compare_5(model: str) -> list[Comparison]:
     case, mu, radius = "chung_ooi_5", 0.3, 0.01
-    simulation, before, _ = _collide(case)
+    simulation, before, _ = _collide(case, model)
     after, spin = simulation.state.bodies.velocity, simulation.state.bodies.angular_velocity
     rows = []
     for i, psi in enumerate((8, 10, 14)):
@@ -59,9 +60,9 @@ def compare_5() -> list[Comparison]:
     return rows
 
 
-def compare_6() -> list[Comparison]:
+def compare_6(model: str) -> list[Comparison]:
     case, mu, radius = "chung_ooi_6", 0.4, 0.1
-    simulation, before, turning = _collide(case)
+    simulation, before, turning = _collide(case, model)
     after, spin = simulation.state.bodies.velocity, simulation.state.bodies.angular_velocity
     rows = []
     for i, psi in enumerate((8, 10, 14)):
@@ -74,11 +75,11 @@ def compare_6() -> list[Comparison]:
     return rows
 
 
-def _spinning_pairs(case: str, second: float) -> list[Comparison]:
+def _spinning_pairs(case: str, second: float, model: str) -> list[Comparison]:
     """Rows of tests 7 and 8: spheres of 0.1 m and `second`, psi = 2 (bodies 0, 1) and psi = 10 (bodies 2, 3)."""
     mu, approach, radii = 0.4, 0.4, np.array([0.1, second])
     mass = 2699.0 * 4 / 3 * pi * radii**3
-    simulation, _, turning = _collide(case)
+    simulation, _, turning = _collide(case, model)
     after, spin = simulation.state.bodies.velocity, simulation.state.bodies.angular_velocity
     rows = []
     for first, psi in ((0, 2), (2, 10)):
@@ -100,33 +101,41 @@ def _spinning_pairs(case: str, second: float) -> list[Comparison]:
     return rows
 
 
-def compare_7() -> list[Comparison]:
-    return _spinning_pairs("chung_ooi_7", 0.1)
+def compare_7(model: str) -> list[Comparison]:
+    return _spinning_pairs("chung_ooi_7", 0.1, model)
 
 
-def compare_8() -> list[Comparison]:
-    return _spinning_pairs("chung_ooi_8", 0.05)
+def compare_8(model: str) -> list[Comparison]:
+    return _spinning_pairs("chung_ooi_8", 0.05, model)
+
+
+PARTS = (compare_4, compare_5, compare_6, compare_7, compare_8)
 
 
 def compare() -> list[Comparison]:
-    return compare_4() + compare_5() + compare_6() + compare_7() + compare_8()
+    return by_model(lambda model: [row for part in PARTS for row in part(model)])
 
 
-def test_4_constant_speed():
-    check(compare_4())
+@pytest.mark.parametrize("model", MODELS)
+def test_4_constant_speed(model):
+    check(compare_4(model))
 
 
-def test_5_constant_normal_speed():
-    check(compare_5())
+@pytest.mark.parametrize("model", MODELS)
+def test_5_constant_normal_speed(model):
+    check(compare_5(model))
 
 
-def test_6_spinning_sphere():
-    check(compare_6())
+@pytest.mark.parametrize("model", MODELS)
+def test_6_spinning_sphere(model):
+    check(compare_6(model))
 
 
-def test_7_equal_spinning_spheres():
-    check(compare_7())
+@pytest.mark.parametrize("model", MODELS)
+def test_7_equal_spinning_spheres(model):
+    check(compare_7(model))
 
 
-def test_8_unequal_spinning_spheres():
-    check(compare_8())
+@pytest.mark.parametrize("model", MODELS)
+def test_8_unequal_spinning_spheres(model):
+    check(compare_8(model))

@@ -4,7 +4,7 @@ round-off, at most one unit in the last place for every step."""
 import numpy as np
 import pytest
 
-from tests.verification.comparison import Comparison, advance_to, check, start
+from tests.verification.comparison import MODELS, Comparison, advance_to, by_model, check, start
 
 CASE = "collision"
 PAIRS = {"floe on floe": (0, 1), "capsule on plate": (2, 3), "tetrahedron on sphere": (4, 5)}
@@ -18,8 +18,8 @@ def momenta(simulation, bodies: tuple[int, int]) -> tuple[np.ndarray, np.ndarray
     return linear.sum(axis=0), (np.cross(state.position[a], linear) + state.angular_momentum[a]).sum(axis=0)
 
 
-def compare(*overrides: str) -> list[Comparison]:
-    simulation = start(CASE, *overrides)
+def compare_model(model: str, *overrides: str) -> list[Comparison]:
+    simulation = start(CASE, *overrides, model=model)
     state = simulation.state.bodies
     before = {name: momenta(simulation, pair) for name, pair in PAIRS.items()}
     moving = state.velocity.copy()
@@ -39,10 +39,16 @@ def compare(*overrides: str) -> list[Comparison]:
     return rows
 
 
-def test_frictionless_collision():
-    check(compare())
+def compare() -> list[Comparison]:
+    return by_model(compare_model)
 
 
+@pytest.mark.parametrize("model", MODELS)
+def test_frictionless_collision(model):
+    check(compare_model(model))
+
+
+@pytest.mark.parametrize("model", MODELS)
 @pytest.mark.parametrize("friction", [0.1, 1.0])
-def test_collision_with_friction(friction):
-    check(compare(f"contact.friction={friction}", "contact.damping=0.0"))
+def test_collision_with_friction(model, friction):
+    check(compare_model(model, f"contact.friction={friction}", "contact.damping=0.0"))

@@ -52,7 +52,7 @@ def compare() -> list[Comparison]:
         found = evaluated(case)
         for pair, (name, _, force, unit) in expected.items():
             result = float(np.linalg.norm(found[pair]["force"]))
-            rows.append(Comparison(case, f"{name}: force, N", force, result, 0.5001 * unit / force))
+            rows.append(Comparison(case, f"{name}: force, N", force, result, 0.5001 * unit / force, model="liu2015"))
     return rows
 
 

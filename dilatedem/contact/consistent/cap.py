@@ -13,6 +13,8 @@ from dilatedem.numerics.vector import add, along, cross, dot, load, scale, sub
 CORNERS, SIDES = 2, 4
 #: regions of the space around a cap: over its interior, its sides, its corners
 INTERIOR, SIDE, CORNER = 0, 1, 2
+#: cosine of the angle between a face and the contact plane below which the face is taken without a look at its sides
+FLUSH = 0.98
 #: relative difference of squared distances below which a side goes before the corner at its end: the regions meet there
 TIE = 1e-12
 #: corner count that stands for a half space: no sides, and a point of its plane where the first corner would be
@@ -25,6 +27,15 @@ def facing(vertex, face_normal, shapes, body, corner, direction):
 
     Flattest: the smallest product of the slopes of its two sides at that vertex, so that the flattest side is always part of it.
     """
+    flush, chosen = FLUSH, -1
+    for f in range(shapes.face_start[body], shapes.face_start[body + 1]):
+        c = dot(load(face_normal, f), direction)
+        if c > flush:
+            flush, chosen = c, f
+    if chosen >= 0:
+        for i in range(shapes.loop_start[chosen], shapes.loop_start[chosen + 1]):
+            if shapes.loop[i] == corner:
+                return chosen
     best, chosen = 1e300, -1
     origin = load(vertex, corner)
     for f in range(shapes.face_start[body], shapes.face_start[body + 1]):
@@ -50,25 +61,34 @@ def _slope(edge, direction):
 
 @item
 def lay_out(vertex, shapes, body, face, origin, scratch, which):
-    """Write the corners of a body's cap and the unit vectors of its sides into `scratch`; returns the number of corners.
+    """Write the corners of a body's cap into `scratch`; returns their number. which: 0 for body a, 1 for body b.
 
-    face: as `facing` returns it; which: 0 for body a, 1 for body b.
+    face: as `facing` returns it.
     """
-    first, last = shapes.vertex_start[body], shapes.vertex_start[body + 1]
-    if face >= 0:
-        first, last = shapes.loop_start[face], shapes.loop_start[face + 1]
-    count = last - first
+    if face < 0:
+        first = shapes.vertex_start[body]
+        count = shapes.vertex_start[body + 1] - first
+        for i in range(count):
+            for m in range(3):
+                scratch[CORNERS + which, i, m] = origin[m] + vertex[first + i, m]
+        return count
+    first = shapes.loop_start[face]
+    count = shapes.loop_start[face + 1] - first
     for i in range(count):
-        v = shapes.loop[first + i] if face >= 0 else first + i
+        v = shapes.loop[first + i]
         for m in range(3):
             scratch[CORNERS + which, i, m] = origin[m] + vertex[v, m]
+    return count
+
+
+@item
+def lay_sides(scratch, which, count):
+    """Write the unit vectors of a cap's sides, side i from corner i to the next."""
     for i in range(count):
-        p = corner_of(scratch, which, i)
-        e = sub(corner_of(scratch, which, i + 1 if i + 1 < count else 0), p)
+        e = sub(corner_of(scratch, which, i + 1 if i + 1 < count else 0), corner_of(scratch, which, i))
         length = sqrt(dot(e, e))
         for m in range(3):
             scratch[SIDES + which, i, m] = e[m] / length if length > 0.0 else 0.0
-    return count
 
 
 @device

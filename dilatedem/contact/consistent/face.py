@@ -6,7 +6,7 @@ The overlap is linear over the patch, the part of face a (seen along b's normal)
 from math import pi, sqrt
 
 from dilatedem.contact.clip import clip_polygon
-from dilatedem.contact.consistent.cap import corner_of, side_of
+from dilatedem.contact.consistent.cap import corner_of
 from dilatedem.jit import device, item
 from dilatedem.numerics.vector import add, along, cross, dot, scale, sub, tangents
 
@@ -16,8 +16,34 @@ BETA = 1.018
 #: distance, m, by which face b reaches beyond its own border in the clipping. Floes at one height have borders that coincide
 #: exactly; round-off would choose whose border cuts the patch, and with it the side to which its pressure pushes
 MARGIN = 1e-4
+#: distance, m, within which a corner of the clipped patch is on the side that cut it
+ON = 1e-10
 #: cosine of the angle between the faces beyond which they do not press face on face
 STEEP = 0.1
+
+
+@device
+def _centre(polygon, count, d0, gu, gv):
+    """Centre of a linear overlap d0 + gu u + gv v over a polygon, and its integral; about the polygon's first corner."""
+    m00 = m10 = m01 = m20 = m11 = m02 = 0.0
+    x2, y2 = polygon[1, 0] - polygon[0, 0], polygon[1, 1] - polygon[0, 1]
+    for i in range(2, count):
+        x1, y1 = x2, y2
+        x2, y2 = polygon[i, 0] - polygon[0, 0], polygon[i, 1] - polygon[0, 1]
+        c = x1 * y2 - x2 * y1
+        sx, sy = x1 + x2, y1 + y2
+        m00 += c
+        m10 += c * sx
+        m01 += c * sy
+        m20 += c * (sx * sx - x1 * x2)
+        m11 += c * (sx * sy + x1 * y1 + x2 * y2)
+        m02 += c * (sy * sy - y1 * y2)
+    first = d0 * m00 / 2.0 + (gu * m10 + gv * m01) / 6.0
+    if not first > 0.0:
+        return 0.0, 0.0, 0.0
+    u = (d0 * m10 / 6.0 + gu * m20 / 12.0 + gv * m11 / 24.0) / first
+    v = (d0 * m01 / 6.0 + gu * m11 / 24.0 + gv * m02 / 12.0) / first
+    return first, u, v
 
 
 @device
@@ -46,20 +72,31 @@ def _moments(polygon, count, u0, v0):
     )  # fmt: skip
 
 
+@device
+def _fence(scratch, k, count, origin, t1, t2, normal):
+    """Side k of face b, moved out by MARGIN, as a u + b v = limit with the unit vector (a, b) pointing out."""
+    p = corner_of(scratch, 1, k)
+    e = sub(corner_of(scratch, 1, k + 1 if k + 1 < count else 0), p)
+    out, d = cross(e, normal), sub(p, origin)
+    a, b = dot(out, t1), dot(out, t2)
+    unit = 1.0 / sqrt(a * a + b * b)
+    a, b = a * unit, b * unit
+    return a, b, a * dot(d, t1) + b * dot(d, t2) + MARGIN
+
+
 @item
 def _patch(scratch, count_a, count_b, origin, t1, t2, normal, reach):
-    """Clip face a by the sides of face b, then by where the overlap ends; returns the corner count and the buffer that holds it.
+    """Clip face a by the sides of face b, then by where the overlap ends; returns the corner count, the buffer that holds it and
+    the sides of b that cut, as bits.
 
     Rows: u, v and the overlap.
     """
     for i in range(count_a):
         d = sub(corner_of(scratch, 0, count_a - 1 - i), origin)  # seen from b's side a's loop runs clockwise
         scratch[0, i, 0], scratch[0, i, 1], scratch[0, i, 2] = dot(d, t1), dot(d, t2), reach - dot(d, normal)
-    count, now = count_a, 0
+    count, now, cut = count_a, 0, 0
     for k in range(count_b):
-        out = cross(side_of(scratch, 1, k), normal)
-        a, b = dot(out, t1), dot(out, t2)
-        limit = dot(sub(corner_of(scratch, 1, k), origin), out) + MARGIN
+        a, b, limit = _fence(scratch, k, count_b, origin, t1, t2, normal)
         outside = False
         for i in range(count):
             if a * scratch[now, i, 0] + b * scratch[now, i, 1] > limit:
@@ -68,49 +105,47 @@ def _patch(scratch, count_a, count_b, origin, t1, t2, normal, reach):
         if outside:
             count = clip_polygon(scratch[now], count, scratch[1 - now], a, b, 0.0, limit)
             now = 1 - now
+            cut |= 1 << (k & 63)
             if count < 3:
-                return 0, now
+                return 0, now, cut
     for i in range(count):
         if scratch[now, i, 2] < 0.0:
             count = clip_polygon(scratch[now], count, scratch[1 - now], 0.0, 0.0, -1.0, 0.0)
             now = 1 - now
             break
-    return count, now
+    return count, now, cut
 
 
 @item
 def press_face(scratch, count_a, normal_a, count_b, normal_b, reach, modulus):
-    """Energy W [J] of face a on face b (or on a half space), force on a's body and its moment about the origin, area, mean overlap.
+    """Energy W [J] of face a on face b (or on a half space), force on a's body and its moment about the origin, area,
+    a length that nothing in the patch exceeds, spread as of `join.pose_energy`.
 
     normal_a, normal_b: outward. W = E* BETA sqrt(A/pi) shape I2/A with A = I1^2/I2, the integrals of the overlap and of its square,
     and shape = ((T + 1)/2)^(1/4), T from the overlap's second moments: (aspect ratio + its inverse)/2 for a rectangle.
     """
     none = (0.0, 0.0, 0.0)
     if -dot(normal_a, normal_b) < STEEP:
-        return 0.0, none, none, 0.0, 0.0
+        return 0.0, none, none, 0.0, 0.0, (none, none)
     t1, t2 = tangents(normal_b)
     origin = corner_of(scratch, 1, 0)
-    count, now = _patch(scratch, count_a, count_b, origin, t1, t2, normal_b, reach)
+    count, now, cut = _patch(scratch, count_a, count_b, origin, t1, t2, normal_b, reach)
     if count < 3:
-        return 0.0, none, none, 0.0, 0.0
+        return 0.0, none, none, 0.0, 0.0, (none, none)
     polygon = scratch[now]
     # the overlap is linear: its slopes from a's plane
     slope = dot(normal_a, normal_b)
     gu, gv = dot(normal_a, t1) / slope, dot(normal_a, t2) / slope
-    u0 = v0 = 0.0
-    for i in range(count):
-        u0 += polygon[i, 0]
-        v0 += polygon[i, 1]
-    u0, v0 = u0 / count, v0 / count
-    d0 = polygon[0, 2] + gu * (u0 - polygon[0, 0]) + gv * (v0 - polygon[0, 1])
-    m = _moments(polygon, count, u0, v0)
-    first = d0 * m[0] + gu * m[1] + gv * m[2]
-    if not first > 0.0:
-        return 0.0, none, none, 0.0, 0.0
-    # about the centre of the overlap
-    du, dv = (d0 * m[1] + gu * m[3] + gv * m[4]) / first, (d0 * m[2] + gu * m[4] + gv * m[5]) / first
+    d0 = polygon[0, 2]
+    first, du, dv = _centre(polygon, count, d0, gu, gv)
+    if first == 0.0:
+        return 0.0, none, none, 0.0, 0.0, (none, none)
     d0 += gu * du + gv * dv
-    u0, v0 = u0 + du, v0 + dv
+    u0, v0 = polygon[0, 0] + du, polygon[0, 1] + dv
+    longest = 0.0
+    for i in range(count):
+        longest = max(longest, (polygon[i, 0] - u0) ** 2 + (polygon[i, 1] - v0) ** 2)
+    longest = 2.0 * sqrt(longest)
     m = _moments(polygon, count, u0, v0)
     first = d0 * m[0] + gu * m[1] + gv * m[2]
     second = d0 * d0 * m[0] + 2.0 * d0 * (gu * m[1] + gv * m[2]) + gu * gu * m[3] + 2.0 * gu * gv * m[4] + gv * gv * m[5]
@@ -119,7 +154,7 @@ def press_face(scratch, count_a, normal_a, count_b, normal_b, reach, modulus):
     jvv = d0 * m[5] + gu * m[8] + gv * m[9]
     trace, determinant = juu + jvv, juu * jvv - juv * juv
     if not (second > 0.0 and determinant > 0.0):
-        return 0.0, none, none, 0.0, 0.0
+        return 0.0, none, none, 0.0, 0.0, (none, none)
     shape = 0.5 * trace / sqrt(determinant)
     energy = modulus * BETA / sqrt(pi) * sqrt(sqrt(0.5 * (shape + 1.0))) * second * sqrt(second) / first
     # pressure: first + 2 overlap second + quadratic form, as derivatives of the energy
@@ -137,24 +172,26 @@ def press_face(scratch, count_a, normal_a, count_b, normal_b, reach, modulus):
     moment = add(cross(centre, force), cross(along(scale(total_u, t1), total_v, t2), normal_b))
     plane, pressure = (u0, v0, d0, gu, gv), (p0, p1, quu, quv, qvv)
     for k in range(count_b):
-        force, moment = _border(scratch, polygon, count, k, origin, t1, t2, normal_b, reach, force, moment, plane, pressure)
-    return energy, force, moment, first * first / second, second / first
+        if cut >> (k & 63) & 1:
+            fence = _fence(scratch, k, count_b, origin, t1, t2, normal_b)
+            force, moment = _border(polygon, count, fence, origin, t1, t2, normal_b, reach, force, moment, plane, pressure)
+    # the second moments as squares of two vectors (Cholesky)
+    one = sqrt(juu / first)
+    two = juv / (first * one)
+    spread = along(scale(one, t1), two, t2), scale(sqrt(max(jvv / first - two * two, 0.0)), t2)
+    return energy, force, moment, first * first / second, longest, spread
 
 
 @item
-def _border(scratch, polygon, count, k, origin, t1, t2, normal, reach, force, moment, plane, pressure):
-    """Add the push along the contact plane where the patch ends at side k of face b: moving out, face a loses contact there."""
+def _border(polygon, count, fence, origin, t1, t2, normal, reach, force, moment, plane, pressure):
+    """Add the push along the contact plane where the patch ends at a side of face b: moving out, face a loses contact there."""
     u0, v0, d0, gu, gv = plane
     p0, p1, quu, quv, qvv = pressure
-    out = cross(side_of(scratch, 1, k), normal)
-    a, b = dot(out, t1), dot(out, t2)
-    limit = dot(sub(corner_of(scratch, 1, k), origin), out) + MARGIN
+    a, b, limit = fence
+    out = along(scale(a, t1), b, t2)
     for i in range(count):
         j = i + 1 if i + 1 < count else 0
-        if (
-            abs(a * polygon[i, 0] + b * polygon[i, 1] - limit) > 1e-10
-            or abs(a * polygon[j, 0] + b * polygon[j, 1] - limit) > 1e-10
-        ):
+        if abs(a * polygon[i, 0] + b * polygon[i, 1] - limit) > ON or abs(a * polygon[j, 0] + b * polygon[j, 1] - limit) > ON:
             continue
         eu, ev = polygon[j, 0] - polygon[i, 0], polygon[j, 1] - polygon[i, 1]
         length = sqrt(eu * eu + ev * ev)

@@ -85,7 +85,7 @@ def _exit(scratch, which, count, normal, region, place, x, e, length):
 @item
 def press_edge(p, e, length, radius, scratch, which, count, normal, other, modulus, shares):
     """Energy W [J] of an edge p + s e, s = 0..length, on cap `which`; force on the edge's body and its moment about the origin;
-    length and mean overlap of the contact, roundness there.
+    length of the contact [m]; 0..1: how far it is past the border of the cap's face.
 
     radius, other, shares: as in `point.press_vertex`. The overlap is measured as (R^2 - d^2)/(2 R), R the sum of the radii, d the
     distance from the cap: the overlap itself but for overlap/(2 R).
@@ -161,7 +161,7 @@ def press_edge(p, e, length, radius, scratch, which, count, normal, other, modul
                         f4, m4 = add(f4, pull), add(m4, cross(xg, pull))
         s = end
     if second <= 0.0:
-        return 0.0, none, none, 0.0, 0.0, 0.0, 0.0
+        return 0.0, none, none, 0.0, 0.0
     their = 1.0 / other if other > 0.0 else 0.0
     # how far, on the mean, the line lies beyond the border of the cap
     side, out = third / second, fourth / second
@@ -175,7 +175,7 @@ def press_edge(p, e, length, radius, scratch, which, count, normal, other, modul
     by_second = by_second * kept - by_side * side - by_out * out
     force = add(along(scale(by_first, f1), by_second, f2), along(scale(by_side, f3), by_out, f4))
     moment = add(along(scale(by_first, m1), by_second, m2), along(scale(by_side, m3), by_out, m4))
-    return energy * kept, force, moment, first * first / second, second / first, across, beyond
+    return energy * kept, force, moment, first * first / second, across
 
 
 @device

@@ -25,7 +25,8 @@ def elliptic(trace, determinant):
 
 @item
 def press_vertex(x, radius, scratch, which, count, normal, other, modulus, shares):
-    """Energy W [J] of a vertex at x that presses on cap `which`, its force on the vertex's body [N], overlap and roundness there.
+    """Energy W [J] of a vertex at x that presses on cap `which`, its force on the vertex's body [N], and 0..1, how far it is past
+    a border of the cap's face, and past a corner.
 
     radius, other: dilated radius of the vertex's body and of the cap's; shares: ln 2 over the exponent of the join. Two vertices
     that meet press each on the other: each gets its share of the energy.
@@ -35,7 +36,7 @@ def press_vertex(x, radius, scratch, which, count, normal, other, modulus, share
     distance = sqrt(dot(w, w))
     overlap = reach - distance
     if overlap <= 0.0 or distance == 0.0:
-        return 0.0, (0.0, 0.0, 0.0), 0.0, 0.0, 0.0
+        return 0.0, (0.0, 0.0, 0.0), 0.0, 0.0
     width = BLEND * reach
     side, end, side_gradient, end_gradient = overhang(scratch, which, count, normal, region, place, w, width)
     across, across_slope = ramp(side / width)
@@ -51,4 +52,4 @@ def press_vertex(x, radius, scratch, which, count, normal, other, modulus, share
     if beyond_slope > 0.0:
         change = their * (by_trace + by_determinant * k2) / factor - shares
         force = along(force, -energy * change * beyond_slope / width, end_gradient)
-    return energy, force, overlap, across, beyond
+    return energy, force, across, beyond

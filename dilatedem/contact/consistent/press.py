@@ -26,26 +26,43 @@ def pressure_centre(force, moment, through):
 
 
 @item
-def press_consistent(k, shapes, vertex, face_normal, solids, bodies, pairs, contact, offset, normal, pa, pb, gap, scratch):
-    """The normal part of contact k; arguments and results as of `liu2015.press_liu2015`. Writes the pair's couple.
+def _rocking_couple(dashpot, force, spread, normal, turning):
+    """Couple on b [N m] of a dashpot [N s/m] spread over the patch, against the relative angular velocity `turning` [rad/s]."""
+    couple, most = (0.0, 0.0, 0.0), 0.0
+    for i in range(2):
+        s = spread[0] if i == 0 else spread[1]
+        arm = cross(s, normal)
+        couple = along(couple, -dashpot * dot(arm, turning), arm)
+        most += dot(arm, arm)
+    size, most = norm(couple), force * sqrt(most)
+    return scale(most / size, couple) if size > most else couple
 
-    Damping multiplies the elastic wrench by 1 + xi sqrt(2 m*/W) (dW/dt)/F, never below 0. For any law F = K overlap^p that adds
-    c sqrt(m* K) overlap^((p-1)/2) times the approach speed with c = sqrt(2 (p+1)) xi: restitution depends on xi alone. m*: what
-    the bodies oppose at the centre of pressure, `kinematics.mobility`.
+
+@item
+def press_consistent(k, shapes, vertex, face_normal, solids, bodies, pairs, contact, offset, normal, pa, pb, gap, scratch):
+    """The normal part of contact k; arguments and results as of `liu2015.press_liu2015`. Writes the pair's couple and its grip.
+
+    Damping multiplies the elastic wrench by 1 + c (dW/dt)/F^2, never below 0, with c = xi sqrt(2 m*/W) F [N s/m]. For any law
+    F = K overlap^p that is c sqrt(m* K) overlap^((p-1)/2) times the approach speed with the constant sqrt(2 (p+1)) xi:
+    restitution depends on xi alone. m*: what the bodies oppose at the centre of pressure, `kinematics.mobility`. Rocking, which
+    changes W only to second order, meets the same dashpot spread over the patch: a couple -c J omega, J the second moments of the
+    overlap. It cannot lift the patch: its arm stays within their root.
     """
     a, b = pairs.a[k], pairs.b[k]
     reach = shapes.radius[a] + shapes.radius[b]
     middle = along(pa, shapes.radius[a] + 0.5 * gap, normal)
     none = (0.0, 0.0, 0.0)
-    energy, elastic, mode, size, force, moment = 0.0, 0.0, 0, 1.0, none, none
+    energy, elastic, mode, size, force, moment, spread = 0.0, 0.0, 0, 1.0, none, none, (none, none)
     if -gap < DEEPEST_SHARE * reach:
         modulus = 1.0 / (solids.compliance[a] + solids.compliance[b])
-        energy, force, moment, mode, size = pose_energy(
-            vertex, face_normal, shapes, a, b, pairs.corner_a[k, 0], pairs.corner_b[k, 0], offset, normal, pb, modulus, scratch
-        )
+        energy, force, moment, mode, size, spread = pose_energy(
+            vertex, face_normal, shapes, a, b, pairs.corner_a[k, 0], pairs.corner_b[k, 0], offset, normal, pb, -gap, modulus,
+            scratch,
+        )  # fmt: skip
         elastic = norm(force)
     if not (energy > 0.0 and elastic > 0.0):
         store(pairs.couple, k, none)
+        pairs.grip[k] = 0.0
         return mode, size, -gap, middle, normal, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     direction = scale(1.0 / elastic, force)
     point, couple = pressure_centre(force, moment, middle)
@@ -54,13 +71,18 @@ def press_consistent(k, shapes, vertex, face_normal, solids, bodies, pairs, cont
     turning = sub(load(bodies.angular_velocity, b), load(bodies.angular_velocity, a))
     elastic_power = -dot(force, velocity) - dot(couple, turning)
     approach = elastic_power / elastic
-    share = 1.0
+    share, rocking, rocking_power, dashpot = 1.0, none, 0.0, 0.0
     if contact.damping > 0.0:
         give = mobility(a, solids, bodies.orientation, point, direction) + mobility(b, solids, bodies.orientation, arm, direction)
-        share = max(1.0 + contact.damping * sqrt(2.0 / (give * energy)) * approach, 0.0)
-    store(pairs.couple, k, scale(share, couple))
+        dashpot = contact.damping * sqrt(2.0 / (give * energy)) * elastic
+        share = max(1.0 + dashpot * approach / elastic, 0.0)
+        rocking = _rocking_couple(dashpot, share * elastic, spread, direction, turning)
+        rocking_power = -dot(rocking, turning)
+    damping_power = (share - 1.0) * elastic_power + rocking_power
+    store(pairs.couple, k, along(rocking, share, couple))
+    pairs.grip[k] = sqrt(dot(spread[0], spread[0]) + dot(spread[1], spread[1]))
     pairs.tangent[k] = TANGENT * elastic * elastic / energy
     shear_stiffness = 0.5 * contact.stiffness_ratio * elastic * elastic / energy
     return (
-        mode, size, -gap, point, direction, elastic, share * elastic, approach, elastic_power, shear_stiffness, energy, 0.0,
+        mode, size, -gap, point, direction, share * elastic, elastic_power, damping_power, shear_stiffness, dashpot, energy, 0.0,
     )  # fmt: skip
