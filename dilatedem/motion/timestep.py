@@ -1,17 +1,19 @@
 """The critical time step: how stiff contacts are against how light the bodies are at the point of contact (physics 6).
 
-Before a run nothing touches yet, so two contacts are laid out for each body: its largest face at its worst corner, and a corner
-hit at a likely speed. During a run `assembled_frequency` adds up the contacts there are.
+Before a run nothing touches yet, so two contacts are laid out for each body: its largest face at its worst corner (of a capsule its
+whole length), and a corner hit at a likely speed. During a run `assembled_frequency` adds up the contacts there are.
 """
 
 from math import pi, sqrt
 
 import numpy as np
 
+from dilatedem.contact.consistent.line import OFFSET, SHORT
 from dilatedem.contact.kinematics import mobility
 from dilatedem.contact.liu2015 import BETA
 from dilatedem.jit import kernel
 from dilatedem.numerics.vector import load
+from dilatedem.state.setting import ContactModel
 
 #: impact speed, as a share of sqrt(gravity x reach), for which contacts are laid out where nothing moves yet
 SETTLING_SPEED = 0.5
@@ -44,6 +46,10 @@ def critical_step(model, bodies) -> float:
             face = 2.0 * modulus * BETA * sqrt(area / pi)
             if face > 0.0:
                 shortest = min(shortest, 2.0 * shrink / sqrt(moving * mobility * face))
+            if model.contact.model == ContactModel.CONSISTENT and area == 0.0:
+                line = _line_stiffness(shapes, i, modulus, moving * solids.inverse_mass[i], speed)
+                if line > 0.0:
+                    shortest = min(shortest, 2.0 * shrink / sqrt(moving * mobility * line))
             hertz = 4.0 / 3.0 * modulus * sqrt(shapes.radius[i])
             if hertz > 0.0:
                 depth = (1.25 * speed**2 / (moving * solids.inverse_mass[i] * hertz)) ** 0.4
@@ -78,6 +84,20 @@ def _largest_face(shapes, i: int) -> float:
         area = 0.5 * np.cross(corners - corners[0], np.roll(corners, -1, axis=0) - corners[0]).sum(axis=0)
         largest = max(largest, float(np.linalg.norm(area)))
     return largest
+
+
+def _line_stiffness(shapes, i: int, modulus: float, inverse_mass: float, speed: float) -> float:
+    """Tangent stiffness [N/m] of a capsule that lies along a flat, pressed in by an impact at `speed`; 0 for a sphere."""
+    ends = shapes.vertex[shapes.vertex_start[i] : shapes.vertex_start[i + 1]]
+    length = float(np.linalg.norm(ends[-1] - ends[0]))
+    if length == 0.0 or modulus == 0.0:
+        return 0.0
+    stiffness = modulus * length
+    for _ in range(4):
+        overlap = speed / sqrt(inverse_mass * stiffness)
+        lam = OFFSET + np.log(length**2 / (shapes.radius[i] * overlap) + SHORT)
+        stiffness = pi * modulus * length / (lam + np.log(lam))
+    return stiffness
 
 
 @kernel
