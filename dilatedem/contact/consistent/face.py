@@ -116,22 +116,65 @@ def _patch(scratch, count_a, count_b, origin, t1, t2, normal, reach):
     return count, now, cut
 
 
+@device
+def _punch(first, second, juu, juv, jvv, modulus):
+    """Energy of a patch from the integrals of its overlap and of its square and the overlap's second moments about its centre;
+    derivatives by them: first, second, juu, juv, jvv.
+    """
+    trace, determinant = juu + jvv, juu * jvv - juv * juv
+    shape = 0.5 * trace / sqrt(determinant)
+    energy = modulus * BETA / sqrt(pi) * sqrt(sqrt(0.5 * (shape + 1.0))) * second * sqrt(second) / first
+    rise = 0.25 * energy * shape / (shape + 1.0)
+    quu, qvv = rise * (1.0 / trace - 0.5 * jvv / determinant), rise * (1.0 / trace - 0.5 * juu / determinant)
+    return energy, (-energy / first, 1.5 * energy / second, quu, rise * juv / determinant, qvv)
+
+
+@device
+def _resultant(pressure, m, d0, gu, gv):
+    """Force of the pressure first + 2 overlap second + quu u^2 + quv u v + qvv v^2, and its moments by u and v; m: `_moments`."""
+    first, second, quu, quv, qvv = pressure
+    c0, cu, cv = first + 2.0 * second * d0, 2.0 * second * gu, 2.0 * second * gv
+    total = c0 * m[0] + cu * m[1] + cv * m[2] + quu * m[3] + quv * m[4] + qvv * m[5]
+    total_u = c0 * m[1] + cu * m[3] + cv * m[4] + quu * m[6] + quv * m[7] + qvv * m[8]
+    total_v = c0 * m[2] + cu * m[4] + cv * m[5] + quu * m[7] + quv * m[8] + qvv * m[9]
+    return total, total_u, total_v
+
+
+@device
+def _strongest_rim(polygon, count, beyond):
+    """Bounds for any edge that presses where a patch has its rim: integral of the squared overlap along it [m3], its length [m].
+
+    Every edge of one face that lies over the other is a side of the patch; `beyond` [m]: as far as an edge can press past the
+    border of the other face, at either end.
+    """
+    most, longest = 0.0, 0.0
+    x, y, d = polygon[count - 1, 0], polygon[count - 1, 1], polygon[count - 1, 2]
+    for i in range(count):
+        u, v, e = polygon[i, 0], polygon[i, 1], polygon[i, 2]
+        square = d * d + d * e + e * e
+        length = sqrt((u - x) ** 2 + (v - y) ** 2)
+        most = max(most, length * square / 3.0 + 2.0 * beyond * max(d, e) ** 2)
+        longest = max(longest, length)
+        x, y, d = u, v, e
+    return most, longest + 2.0 * beyond
+
+
 @item
-def press_face(scratch, count_a, normal_a, count_b, normal_b, reach, modulus):
+def press_face(scratch, count_a, normal_a, count_b, normal_b, reach, overlap, modulus):
     """Energy W [J] of face a on face b (or on a half space), force on a's body and its moment about the origin, area,
-    a length that nothing in the patch exceeds, spread as of `join.pose_energy`.
+    what its rims can press as edges (see `_strongest_rim`), spread as of `join.pose_energy`.
 
     normal_a, normal_b: outward. W = E* BETA sqrt(A/pi) shape I2/A with A = I1^2/I2, the integrals of the overlap and of its square,
     and shape = ((T + 1)/2)^(1/4), T from the overlap's second moments: (aspect ratio + its inverse)/2 for a rectangle.
     """
     none = (0.0, 0.0, 0.0)
     if -dot(normal_a, normal_b) < STEEP:
-        return 0.0, none, none, 0.0, 0.0, (none, none)
+        return 0.0, none, none, 0.0, (0.0, 0.0), (none, none)
     t1, t2 = tangents(normal_b)
     origin = corner_of(scratch, 1, 0)
     count, now, cut = _patch(scratch, count_a, count_b, origin, t1, t2, normal_b, reach)
     if count < 3:
-        return 0.0, none, none, 0.0, 0.0, (none, none)
+        return 0.0, none, none, 0.0, (0.0, 0.0), (none, none)
     polygon = scratch[now]
     # the overlap is linear: its slopes from a's plane
     slope = dot(normal_a, normal_b)
@@ -139,38 +182,25 @@ def press_face(scratch, count_a, normal_a, count_b, normal_b, reach, modulus):
     d0 = polygon[0, 2]
     first, du, dv = _centre(polygon, count, d0, gu, gv)
     if first == 0.0:
-        return 0.0, none, none, 0.0, 0.0, (none, none)
+        return 0.0, none, none, 0.0, (0.0, 0.0), (none, none)
     d0 += gu * du + gv * dv
     u0, v0 = polygon[0, 0] + du, polygon[0, 1] + dv
-    longest = 0.0
-    for i in range(count):
-        longest = max(longest, (polygon[i, 0] - u0) ** 2 + (polygon[i, 1] - v0) ** 2)
-    longest = 2.0 * sqrt(longest)
+    rims = _strongest_rim(polygon, count, sqrt(2.0 * reach * overlap))
     m = _moments(polygon, count, u0, v0)
     first = d0 * m[0] + gu * m[1] + gv * m[2]
     second = d0 * d0 * m[0] + 2.0 * d0 * (gu * m[1] + gv * m[2]) + gu * gu * m[3] + 2.0 * gu * gv * m[4] + gv * gv * m[5]
     juu = d0 * m[3] + gu * m[6] + gv * m[7]
     juv = d0 * m[4] + gu * m[7] + gv * m[8]
     jvv = d0 * m[5] + gu * m[8] + gv * m[9]
-    trace, determinant = juu + jvv, juu * jvv - juv * juv
-    if not (second > 0.0 and determinant > 0.0):
-        return 0.0, none, none, 0.0, 0.0, (none, none)
-    shape = 0.5 * trace / sqrt(determinant)
-    energy = modulus * BETA / sqrt(pi) * sqrt(sqrt(0.5 * (shape + 1.0))) * second * sqrt(second) / first
-    # pressure: first + 2 overlap second + quadratic form, as derivatives of the energy
-    p0, p1 = -energy / first, 1.5 * energy / second
-    rise = 0.25 * energy * shape / (shape + 1.0)
-    quu, qvv = rise * (1.0 / trace - 0.5 * jvv / determinant), rise * (1.0 / trace - 0.5 * juu / determinant)
-    quv = rise * juv / determinant
-    c0, cu, cv = p0 + 2.0 * p1 * d0, 2.0 * p1 * gu, 2.0 * p1 * gv
-    total = c0 * m[0] + cu * m[1] + cv * m[2] + quu * m[3] + quv * m[4] + qvv * m[5]
-    total_u = c0 * m[1] + cu * m[3] + cv * m[4] + quu * m[6] + quv * m[7] + qvv * m[8]
-    total_v = c0 * m[2] + cu * m[4] + cv * m[5] + quu * m[7] + quv * m[8] + qvv * m[9]
+    if not (second > 0.0 and juu * jvv - juv * juv > 0.0):
+        return 0.0, none, none, 0.0, (0.0, 0.0), (none, none)
+    energy, pressure = _punch(first, second, juu, juv, jvv, modulus)
+    total, total_u, total_v = _resultant(pressure, m, d0, gu, gv)
     centre = add(origin, along(scale(u0, t1), v0, t2))
     # on a: along b's normal, at (u, v) of b's plane
     force = scale(total, normal_b)
     moment = add(cross(centre, force), cross(along(scale(total_u, t1), total_v, t2), normal_b))
-    plane, pressure = (u0, v0, d0, gu, gv), (p0, p1, quu, quv, qvv)
+    plane = u0, v0, d0, gu, gv
     for k in range(count_b):
         if cut >> (k & 63) & 1:
             fence = _fence(scratch, k, count_b, origin, t1, t2, normal_b)
@@ -179,7 +209,7 @@ def press_face(scratch, count_a, normal_a, count_b, normal_b, reach, modulus):
     one = sqrt(juu / first)
     two = juv / (first * one)
     spread = along(scale(one, t1), two, t2), scale(sqrt(max(jvv / first - two * two, 0.0)), t2)
-    return energy, force, moment, first * first / second, longest, spread
+    return energy, force, moment, first * first / second, rims, spread
 
 
 @item

@@ -53,10 +53,12 @@ def _join(largest, total, force, moment, energy, more, turn):
 
 
 @device
-def _line_bound(modulus, length, overlap, curvature):
-    """Upper bound of the energy of an edge that presses over `length` by at most `overlap`."""
-    lam = OFFSET + log(length * length * curvature / overlap + SHORT)
-    return 0.5 * pi * modulus * length * overlap * overlap / (lam + log(lam) + 0.5)
+def _line_bound(modulus, second, length, overlap, curvature):
+    """Upper bound of the energy of an edge with the integral `second` of its squared overlap, no more than `overlap` anywhere, no
+    longer than `length`."""
+    short = second / (overlap * overlap)  # the shorter the line, the stiffer
+    lam = OFFSET + log(min(short, length) ** 2 * curvature / overlap + SHORT)
+    return 0.5 * pi * modulus * second / (lam + log(lam) + 0.5)
 
 
 @device
@@ -88,7 +90,8 @@ def _press_rims(own, scratch, count, radius, their, other, normal, overlap, long
             if deepest <= 0.0:
                 continue
             pressed = min(length if min(u, v) >= 0.0 else length * deepest / abs(u - v), longest)
-            if _line_bound(modulus, pressed, min(deepest, overlap), 1.0 / radius) < NEGLECTED * largest:
+            deepest = min(deepest, overlap)
+            if _line_bound(modulus, pressed * deepest * deepest, pressed, deepest, 1.0 / radius) < NEGLECTED * largest:
                 continue
         energy, more, turn, line, across = press_edge(p, e, length, radius, scratch, which, their, normal, other, modulus, SHARE)
         if energy > NEGLECTED * largest:
@@ -141,16 +144,17 @@ def pose_energy(vertex, face_normal, shapes, a, b, corner_a, corner_b, offset, n
             normal_b = load(face_normal, fb)
     reach = ra + rb
     sums = 0.0, 0.0, NONE, NONE, VERTEX_FACE, 1.0, (NONE, NONE)
-    longest = 1e300
+    rims, longest = 1e300, 1e300
     if fa >= 0 and (fb >= 0 or half_space):
-        energy, more, turn, area, extent, spread = press_face(scratch, na, normal_a, nb, normal_b, reach, modulus)
+        energy, more, turn, area, bound, spread = press_face(
+            scratch, na, normal_a, nb, normal_b, reach, overlap, modulus
+        )
         if energy > 0.0:
             sums = energy, 1.0, scale(-1.0, more), scale(-1.0, turn), FACE_FACE, area, spread
-            # no edge presses farther than the patch, and past its border no farther than the rim
-            longest = extent + 2.0 * sqrt(2.0 * reach * overlap)
+            rims, longest = bound
     bluntest = max(ra, rb)
     least = NEGLECTED * sums[0]
-    if _line_bound(modulus, longest, overlap, 1.0 / bluntest) >= least or _point_bound(modulus, overlap, bluntest) >= least:
+    if _line_bound(modulus, rims, longest, overlap, 1.0 / bluntest) >= least or _point_bound(modulus, overlap, bluntest) >= least:
         lay_sides(scratch, 0, na)
         lay_sides(scratch, 1, nb)
         sums = _press_rims(0, scratch, na, ra, nb, rb, normal_b, overlap, longest, modulus, sums)

@@ -18,6 +18,9 @@ OFFSET, SHORT = 0.3, 14.0
 MOST_PIECES = 24
 #: share of the edge's length stepped over a border between two regions, so that the next look falls on its far side
 STEP = 1e-8
+#: squared sine of the angle between an edge and the plane, or the side, below which its distance from them does not change
+PARALLEL2 = 1e-24
+NONE = (0.0, 0.0, 0.0)
 #: Gauss-Legendre abscissa and weights on -1..1, exact to degree 5
 GAUSS, OUTER, MIDDLE = sqrt(0.6), 5.0 / 9.0, 8.0 / 9.0
 
@@ -82,6 +85,50 @@ def _exit(scratch, which, count, normal, region, place, x, e, length):
     return max(way, 0.0)
 
 
+@device
+def _pressing(w, turn, reach, low, high):
+    """The part of low..high where |w + s turn| < reach; empty: the second is not above the first."""
+    a, b, c = dot(turn, turn), dot(w, turn), dot(w, w) - reach * reach
+    if a <= PARALLEL2:
+        return low, (high if c < 0.0 else low)
+    root = b * b - a * c
+    if root <= 0.0:
+        return low, low
+    root = sqrt(root)
+    return max(low, (-b - root) / a), min(high, (-b + root) / a)
+
+
+@item
+def _add_piece(sums, x, e, low, high, w, turn, scratch, which, count, normal, region, place, reach):
+    """Add low..high of the line x + s e over one region of the cap, w + s turn from the cap to it, to the sums: the integrals of
+    overlap, its square, its square times the way beyond a side, and beyond a corner, each with minus its gradient as force and
+    moment on the edge's body.
+    """
+    i1, i2, i3, i4, f1, f2, f3, f4, m1, m2, m3, m4 = sums
+    half, middle = 0.5 * (high - low), 0.5 * (high + low)
+    for g in range(3):
+        at = middle + (g - 1) * GAUSS * half
+        weight = half * (MIDDLE if g == 1 else OUTER)
+        from_cap, point = along(w, at, turn), along(x, at, e)
+        overlap = 0.5 * (reach * reach - dot(from_cap, from_cap)) / reach
+        push = scale(weight / reach, from_cap)
+        moment = cross(point, push)
+        i1, f1, m1 = i1 + weight * overlap, add(f1, push), add(m1, moment)
+        i2 += weight * overlap * overlap
+        f2, m2 = along(f2, 2.0 * overlap, push), along(m2, 2.0 * overlap, moment)
+        if region != INTERIOR:
+            side, corner, side_gradient, corner_gradient = overhang(
+                scratch, which, count, normal, region, place, from_cap, BLEND * reach
+            )
+            square = weight * overlap * overlap
+            pull = along(scale(2.0 * overlap * side, push), -square, side_gradient)
+            i3, f3, m3 = i3 + square * side, add(f3, pull), add(m3, cross(point, pull))
+            if corner > 0.0:
+                pull = along(scale(2.0 * overlap * corner, push), -square, corner_gradient)
+                i4, f4, m4 = i4 + square * corner, add(f4, pull), add(m4, cross(point, pull))
+    return i1, i2, i3, i4, f1, f2, f3, f4, m1, m2, m3, m4
+
+
 @item
 def press_edge(p, e, length, radius, scratch, which, count, normal, other, modulus, shares):
     """Energy W [J] of an edge p + s e, s = 0..length, on cap `which`; force on the edge's body and its moment about the origin;
@@ -91,94 +138,55 @@ def press_edge(p, e, length, radius, scratch, which, count, normal, other, modul
     distance from the cap: the overlap itself but for overlap/(2 R).
     """
     reach = radius + other
-    none = (0.0, 0.0, 0.0)
-    low, high = 0.0, length
+    s, high = 0.0, length
     if count != 1 and count != 2:
         # no closer than `reach` to the plane of the cap: nothing to press
         z, rate = dot(sub(p, corner_of(scratch, which, 0)), normal) - reach, dot(e, normal)
         if rate > 0.0:
             high = min(high, -z / rate)
         elif rate < 0.0:
-            low = max(low, -z / rate)
+            s = max(s, -z / rate)
         elif z >= 0.0:
-            high = low
-    first = second = third = fourth = 0.0
-    f1, f2, f3, f4 = none, none, none, none
-    m1, m2, m3, m4 = none, none, none, none
-    width = BLEND * reach
-    s = low
+            high = 0.0
+    sums = 0.0, 0.0, 0.0, 0.0, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE
     for _ in range(MOST_PIECES):
         if s >= high:
             break
-        x = along(p, s + STEP * length, e)
+        s += STEP * length
+        x = along(p, s, e)
         region, place, w = nearest(scratch, which, count, normal, x)
-        end = min(high, s + STEP * length + _exit(scratch, which, count, normal, region, place, x, e, high - s))
+        way = min(high - s, _exit(scratch, which, count, normal, region, place, x, e, high - s))
         # w is linear along the piece: its part at right angles to what the region is spanned by
+        turn = e
         if region == INTERIOR:
             turn = scale(dot(e, normal), normal)
         elif region == SIDE:
             side = side_of(scratch, which, place)
             turn = along(e, -dot(e, side), side)
-        else:
-            turn = e
-        a, b, c = dot(turn, turn), dot(w, turn), dot(w, w) - reach * reach
-        begin, stop = s, end
-        if a > 1e-24:
-            root = b * b - a * c
-            if root <= 0.0:
-                s = end
-                continue
-            root = sqrt(root)
-            begin, stop = max(begin, x_of(s, length) + (-b - root) / a), min(stop, x_of(s, length) + (-b + root) / a)
-        elif c >= 0.0:
-            s = end
-            continue
+        begin, stop = _pressing(w, turn, reach, -STEP * length, way)
         if stop > begin:
-            half, middle = 0.5 * (stop - begin), 0.5 * (stop + begin)
-            for g in range(3):
-                at = middle + (g - 1) * GAUSS * half
-                weight = half * (MIDDLE if g == 1 else OUTER)
-                wg = along(w, at - x_of(s, length), turn)
-                overlap = 0.5 * (reach * reach - dot(wg, wg)) / reach
-                xg = along(p, at, e)
-                push = scale(weight / reach, wg)
-                moment = cross(xg, push)
-                first += weight * overlap
-                second += weight * overlap * overlap
-                f1, m1 = add(f1, push), add(m1, moment)
-                f2, m2 = along(f2, 2.0 * overlap, push), along(m2, 2.0 * overlap, moment)
-                if region != INTERIOR:
-                    side, out, side_gradient, out_gradient = overhang(
-                        scratch, which, count, normal, region, place, wg, width
-                    )
-                    square = weight * overlap * overlap
-                    third += square * side
-                    pull = along(scale(2.0 * overlap * side, push), -square, side_gradient)
-                    f3, m3 = add(f3, pull), add(m3, cross(xg, pull))
-                    if out > 0.0:
-                        fourth += square * out
-                        pull = along(scale(2.0 * overlap * out, push), -square, out_gradient)
-                        f4, m4 = add(f4, pull), add(m4, cross(xg, pull))
-        s = end
-    if second <= 0.0:
-        return 0.0, none, none, 0.0, 0.0
-    their = 1.0 / other if other > 0.0 else 0.0
-    # how far, on the mean, the line lies beyond the border of the cap
-    side, out = third / second, fourth / second
-    across, across_slope = ramp(side / width)
-    beyond, beyond_slope = ramp(out / width)
-    energy, by_first, by_second, by_curvature = line_energy(modulus, first, second, 1.0 / radius + across * their)
-    kept = exp(-shares * across) * (1.0 - 0.5 * beyond)
-    by_side = (by_curvature * their - energy * shares) * kept * across_slope / (width * second)
-    by_out = -0.5 * energy * exp(-shares * across) * beyond_slope / (width * second)
+            sums = _add_piece(sums, x, e, begin, stop, w, turn, scratch, which, count, normal, region, place, reach)
+        s += max(way, 0.0)
+    return _whole_line(sums, radius, other, modulus, shares)
+
+
+@item
+def _whole_line(sums, radius, other, modulus, shares):
+    """Energy, force, moment, length and place beyond the border of an edge from its integrals; as `press_edge` returns them."""
+    i1, i2, i3, i4, f1, f2, f3, f4, m1, m2, m3, m4 = sums
+    if i2 <= 0.0:
+        return 0.0, NONE, NONE, 0.0, 0.0
+    width, their = BLEND * (radius + other), 1.0 / other if other > 0.0 else 0.0
+    # how far, on the mean, the line lies beyond the border of the cap: its curvature comes in, and the share of the other's edge
+    across, across_slope = ramp(i3 / (i2 * width))
+    beyond, beyond_slope = ramp(i4 / (i2 * width))
+    energy, by_first, by_second, by_curvature = line_energy(modulus, i1, i2, 1.0 / radius + across * their)
+    share = exp(-shares * across)
+    kept = share * (1.0 - 0.5 * beyond)  # past a corner it is the corner that presses, a vertex of its own
+    by_side = (by_curvature * their - energy * shares) * kept * across_slope / (width * i2)
+    by_corner = -0.5 * energy * share * beyond_slope / (width * i2)
     by_first *= kept
-    by_second = by_second * kept - by_side * side - by_out * out
-    force = add(along(scale(by_first, f1), by_second, f2), along(scale(by_side, f3), by_out, f4))
-    moment = add(along(scale(by_first, m1), by_second, m2), along(scale(by_side, m3), by_out, m4))
-    return energy * kept, force, moment, first * first / second, across
-
-
-@device
-def x_of(s, length):
-    """Where the region of a piece that begins at s is looked at."""
-    return s + STEP * length
+    by_second = by_second * kept - (by_side * i3 + by_corner * i4) / i2
+    force = add(along(scale(by_first, f1), by_second, f2), along(scale(by_side, f3), by_corner, f4))
+    moment = add(along(scale(by_first, m1), by_second, m2), along(scale(by_side, m3), by_corner, m4))
+    return energy * kept, force, moment, i1 * i1 / i2, across
