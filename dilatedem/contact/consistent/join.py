@@ -93,7 +93,7 @@ def _press_rims(own, scratch, count, radius, their, other, normal, overlap, long
             deepest = min(deepest, overlap)
             if _line_bound(modulus, pressed * deepest * deepest, pressed, deepest, 1.0 / radius) < NEGLECTED * largest:
                 continue
-        energy, more, turn, line, across = press_edge(p, e, length, radius, scratch, which, their, normal, other, modulus, SHARE)
+        energy, more, turn, line, across = press_edge(p, e, length, radius, scratch, which, their, normal, other, modulus, SHARP)
         if energy > NEGLECTED * largest:
             if energy > largest:
                 mode, size = EDGE_FACE if across < 0.5 else EDGE_PARALLEL, line

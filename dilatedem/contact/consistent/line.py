@@ -130,12 +130,13 @@ def _add_piece(sums, x, e, low, high, w, turn, scratch, which, count, normal, re
 
 
 @item
-def press_edge(p, e, length, radius, scratch, which, count, normal, other, modulus, shares):
+def press_edge(p, e, length, radius, scratch, which, count, normal, other, modulus, sharp):
     """Energy W [J] of an edge p + s e, s = 0..length, on cap `which`; force on the edge's body and its moment about the origin;
     length of the contact [m]; 0..1: how far it is past the border of the cap's face.
 
-    radius, other, shares: as in `point.press_vertex`. The overlap is measured as (R^2 - d^2)/(2 R), R the sum of the radii, d the
-    distance from the cap: the overlap itself but for overlap/(2 R).
+    radius, other: dilated radius of the edge's body and of the cap's; sharp: exponent of the join. Two edges that meet press each
+    on the other: each gets a share of the energy, the sharper one the larger (along it, the contact is the longer). The overlap is
+    measured as (R^2 - d^2)/(2 R), R the sum of the radii, d the distance from the cap: the overlap itself but for overlap/(2 R).
     """
     reach = radius + other
     s, high = 0.0, length
@@ -167,24 +168,26 @@ def press_edge(p, e, length, radius, scratch, which, count, normal, other, modul
         if stop > begin:
             sums = _add_piece(sums, x, e, begin, stop, w, turn, scratch, which, count, normal, region, place, reach)
         s += max(way, 0.0)
-    return _whole_line(sums, radius, other, modulus, shares)
+    return _whole_line(sums, radius, other, modulus, sharp)
 
 
 @item
-def _whole_line(sums, radius, other, modulus, shares):
+def _whole_line(sums, radius, other, modulus, sharp):
     """Energy, force, moment, length and place beyond the border of an edge from its integrals; as `press_edge` returns them."""
     i1, i2, i3, i4, f1, f2, f3, f4, m1, m2, m3, m4 = sums
     if i2 <= 0.0:
         return 0.0, NONE, NONE, 0.0, 0.0
-    width, their = BLEND * (radius + other), 1.0 / other if other > 0.0 else 0.0
+    width, their, yielded = BLEND * (radius + other), 0.0, 0.0
+    if other > 0.0:
+        their, yielded = 1.0 / other, log(1.0 + (radius / other) ** 4) / sharp
     # how far, on the mean, the line lies beyond the border of the cap: its curvature comes in, and the share of the other's edge
     across, across_slope = ramp(i3 / (i2 * width))
     beyond, beyond_slope = ramp(i4 / (i2 * width))
     energy, by_first, by_second, by_curvature = line_energy(modulus, i1, i2, 1.0 / radius + across * their)
-    share = exp(-shares * across)
-    kept = share * (1.0 - 0.5 * beyond)  # past a corner it is the corner that presses, a vertex of its own
-    by_side = (by_curvature * their - energy * shares) * kept * across_slope / (width * i2)
-    by_corner = -0.5 * energy * share * beyond_slope / (width * i2)
+    share = exp(-yielded * across)
+    kept = share * (1.0 - beyond)  # past a corner it is the corner that presses, a vertex of its own
+    by_side = (by_curvature * their - energy * yielded) * kept * across_slope / (width * i2)
+    by_corner = -energy * share * beyond_slope / (width * i2)
     by_first *= kept
     by_second = by_second * kept - (by_side * i3 + by_corner * i4) / i2
     force = add(along(scale(by_first, f1), by_second, f2), along(scale(by_side, f3), by_corner, f4))
