@@ -1,12 +1,20 @@
 """Compiled doors to functions of the package that Python cannot call (`device`, `item`): thin, one call each."""
 
+import numpy as np
+
 from dilatedem.contact.closest import closest_points
 from dilatedem.contact.collide import separation
+from dilatedem.contact.consistent.cap import CORNERS, facing, lay_sides, nearest, overhang
+from dilatedem.contact.consistent.face import press_face
 from dilatedem.contact.consistent.join import pose_energy
+from dilatedem.contact.consistent.line import line_energy, press_edge
+from dilatedem.contact.consistent.point import elliptic, press_vertex
+from dilatedem.contact.friction import carried_over, rescaled, slide, viscous_share
 from dilatedem.contact.patch import contact_patch
 from dilatedem.contact.turning import turn_shape
 from dilatedem.jit import kernel
 from dilatedem.numerics.vector import store
+from dilatedem.state.workspace import MOST_CORNERS
 from dilatedem.water.floating import submerged_polyhedron, submerged_prism
 
 
@@ -52,3 +60,81 @@ def wet_prism(z, nx, ny, nz, hulls, body):
 def wet_polyhedron(z, nx, ny, nz, hulls, body, works):
     """`submerged_polyhedron` in the first workspace."""
     return submerged_polyhedron(z, nx, ny, nz, hulls, body, works, 0)
+
+
+def workspace_of(cap_b, cap_a=()) -> np.ndarray:
+    """The workspace of the consistent model with the corners (n, 3) [m] of both caps written; n = 0: as it comes."""
+    scratch = np.zeros((6, MOST_CORNERS, 3))
+    for which, corners in enumerate((cap_a, cap_b)):
+        scratch[CORNERS + which, : len(corners)] = np.reshape(corners, (-1, 3))
+    return scratch
+
+
+@kernel
+def face_towards(shapes, vertex, face_normal, body, corner, direction):
+    """`facing`."""
+    return facing(vertex, face_normal, shapes, body, corner, direction)
+
+
+@kernel
+def around_cap(scratch, count, normal, x, width):
+    """`nearest` and `overhang` of the cap of b."""
+    lay_sides(scratch, 1, count)
+    region, place, w = nearest(scratch, 1, count, normal, x)
+    return region, place, w, overhang(scratch, 1, count, normal, region, place, w, width)
+
+
+@kernel
+def hertz_factor(trace, determinant):
+    """`elliptic`."""
+    return elliptic(trace, determinant)
+
+
+@kernel
+def point_on_cap(x, radius, scratch, count, normal, other, modulus, shares):
+    """`press_vertex` on the cap of b."""
+    lay_sides(scratch, 1, count)
+    return press_vertex(x, radius, scratch, 1, count, normal, other, modulus, shares)
+
+
+@kernel
+def line_law(modulus, first, second, curvature):
+    """`line_energy`."""
+    return line_energy(modulus, first, second, curvature)
+
+
+@kernel
+def edge_on_cap(p, e, length, radius, scratch, count, normal, other, modulus, sharp):
+    """`press_edge` on the cap of b."""
+    lay_sides(scratch, 1, count)
+    return press_edge(p, e, length, radius, scratch, 1, count, normal, other, modulus, sharp)
+
+
+@kernel
+def face_on_cap(scratch, count_a, normal_a, count_b, normal_b, reach, overlap, modulus):
+    """`press_face`."""
+    return press_face(scratch, count_a, normal_a, count_b, normal_b, reach, overlap, modulus)
+
+
+@kernel
+def carried_spring(slip, normal):
+    """`carried_over`."""
+    return carried_over(slip, normal)
+
+
+@kernel
+def rescaled_spring(old, new):
+    """`rescaled`."""
+    return rescaled(old, new)
+
+
+@kernel
+def slid_spring(slip, turned, sliding, turning, stiffness, limit):
+    """`slide`."""
+    return slide(slip, turned, sliding, turning, stiffness, limit)
+
+
+@kernel
+def share_of_dashpot(slip, turned, sliding, turning, stiffness, dashpot, limit):
+    """`viscous_share`."""
+    return viscous_share(slip, turned, sliding, turning, stiffness, dashpot, limit)

@@ -1,11 +1,13 @@
 """Regenerate the table of validation/README.md: run every case file of this folder and set its results against their closed forms.
 
-    python -m validation.closed_forms.run
+    python -m validation.closed_forms.run [MODULE ...]
 
-from the root of the repository. The closed forms, and what is read from each case, are those of tests/verification.
+from the root of the repository. The closed forms, and what is read from each case, are those of tests/verification; MODULE: one of
+FORMS, to write its section alone anew. What is asked of `consistent` has no case file here: its rows name the folder that has them.
 """
 
 import importlib
+import sys
 import time
 from math import isinf
 from pathlib import Path
@@ -34,6 +36,7 @@ FORMS = {
     "test_stack": "Resting stacks",
     "test_collision": "Momentum of a collision",
     "test_forces_by_mode": "Force by contact mode at 0.1 mm overlap",
+    "test_consistent_bounds": "What is asked of `consistent`",
 }
 
 
@@ -42,12 +45,17 @@ def number(value: float) -> str:
     return "0" if value == 0 else f"{value:.6g}"
 
 
+def source(case: str) -> str:
+    """Link to a case file of this folder, or to another folder of validation."""
+    place = f"closed_forms/{case}.toml" if (CASES / f"{case}.toml").exists() else f"{case}/README.md"
+    return f"[{case}]({place})"
+
+
 def row(comparison: Comparison) -> str:
-    case = f"[{comparison.case}](closed_forms/{comparison.case}.toml)"
     allowed = "recorded" if isinf(comparison.tolerance) else f"{comparison.tolerance:.1e}"
     verdict = "" if comparison.holds else " **fails**"
     cells = (
-        case,
+        source(comparison.case),
         comparison.model or "any",
         comparison.quantity,
         number(comparison.target),
@@ -58,30 +66,37 @@ def row(comparison: Comparison) -> str:
     return "| " + " | ".join(cells) + " |"
 
 
-def table() -> str:
-    """The whole table in Markdown, one section for each closed form."""
-    lines = [
+def section(module: str) -> str:
+    """The section of one closed form in Markdown, its title first."""
+    started = time.perf_counter()
+    comparisons = importlib.import_module(f"tests.verification.{module}").compare()
+    print(f"{FORMS[module]}: {len(comparisons)} results, {time.perf_counter() - started:.1f} s", flush=True)
+    lines = [f"### {FORMS[module]}", "", f"Equations: [{module}.py](../tests/verification/{module}.py)", ""]
+    lines += ["| case | model | quantity | target | result | error | allowed |", "| --- | --- | --- | ---: | ---: | ---: | ---: |"]
+    return "\n".join(lines + [row(comparison) for comparison in comparisons])
+
+
+def table(written: dict[str, str], asked: list[str]) -> str:
+    """The whole table in Markdown: sections by title, those asked for anew."""
+    head = (
         f"dilatedem {dilatedem.__version__}. Error: relative to the target; where that is 0 or a difference of large numbers, "
         "to the scale of the quantity. Model: that of the contacts; any, where nothing touches. Recorded: a known limit of the "
         "model, for which there is no bound."
-    ]
-    for module, title in FORMS.items():
-        started = time.perf_counter()
-        comparisons = importlib.import_module(f"tests.verification.{module}").compare()
-        print(f"{title}: {len(comparisons)} results, {time.perf_counter() - started:.1f} s", flush=True)
-        lines += ["", f"### {title}", "", f"Equations: [{module}.py](../tests/verification/{module}.py)", ""]
-        lines += [
-            "| case | model | quantity | target | result | error | allowed |",
-            "| --- | --- | --- | ---: | ---: | ---: | ---: |",
-        ]
-        lines += [row(comparison) for comparison in comparisons]
-    return "\n".join(lines)
+    )
+    parts = [section(module) if module in asked else written.get(title, "") for module, title in FORMS.items()]
+    return "\n\n".join([head, *(part for part in parts if part)])
 
 
 def main() -> None:
+    asked = sys.argv[1:] or list(FORMS)
+    unknown = [module for module in asked if module not in FORMS]
+    if unknown:
+        raise SystemExit(f"there is no {unknown[0]}; the modules are {', '.join(FORMS)}")
     before, rest = README.read_text(encoding="utf-8").split(START)
-    after = rest.split(END)[1]
-    README.write_text(f"{before}{START}\n\n{table()}\n\n{END}{after}", encoding="utf-8")
+    old, after = rest.split(END)
+    sections = [f"### {part.strip()}" for part in f"\n{old}".split("\n### ")[1:]]
+    written = {part.splitlines()[0].removeprefix("### "): part for part in sections}
+    README.write_text(f"{before}{START}\n\n{table(written, asked)}\n\n{END}{after}", encoding="utf-8")
     covered = {path.stem for path in CASES.glob("*.toml")}
     missing = {stem for stem in covered if f"closed_forms/{stem}.toml" not in README.read_text(encoding="utf-8")}
     if missing:

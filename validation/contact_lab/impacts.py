@@ -8,8 +8,8 @@ from dilatedem.case.schema import Case
 from dilatedem.simulation import Simulation
 from dilatedem.state.clock import Status
 
-CHUNK = 50  # steps between two looks
-QUIET = 0.6  # s without contact after which a collision is over: one end of a floe may hit long after the other
+CHUNK = 400  # steps between two looks
+QUIET = 0.6  # s of steady motion after which a collision is over: one end of a floe may hit long after the other
 PATIENCE = 5.0  # s, in which a collision has to begin, and then to end
 
 
@@ -46,15 +46,16 @@ def collide(case: Case, *, share: float = 1.0, patience: float = PATIENCE) -> Im
     bodies = simulation.state.bodies
     _advance(simulation, 0)
     kinetic, velocity = simulation.energies()["kinetic"], bodies.velocity[:2].copy()
-    quiet, touched = 0.0, False
+    quiet, touched, last = 0.0, False, velocity
     while not touched or quiet < QUIET:
         if not touched and simulation.time_s > patience:
             return None
         if simulation.time_s > patience + PATIENCE:
             raise ValueError(f"no end of the collision within {simulation.time_s:g} s")
         _advance(simulation, CHUNK)
-        touched = touched or simulation.contacts > 0 or not np.allclose(bodies.velocity[:2], velocity, atol=1e-12)
-        quiet = 0.0 if simulation.contacts else quiet + CHUNK * simulation.dt
+        pushed = simulation.contacts > 0 or not np.allclose(bodies.velocity[:2], last, rtol=1e-12, atol=1e-12)
+        touched, last = touched or pushed, bodies.velocity[:2].copy()
+        quiet = 0.0 if pushed else quiet + CHUNK * simulation.dt
     after = simulation.energies()["kinetic"]
     return Impact(simulation.dt, kinetic, after, velocity, bodies.velocity[:2].copy(), bodies.angular_velocity[:2].copy())
 

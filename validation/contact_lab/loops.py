@@ -10,12 +10,14 @@ from dilatedem.post.canvas import BLACK, new_figure, styled
 from dilatedem.post.labels import number
 from validation.contact_lab.attitudes import attitude
 from validation.contact_lab.drawing import COLOUR
-from validation.contact_lab.probe import Answers, Poses, Probe
+from validation.contact_lab.probe import Poses, Probe
 from validation.contact_lab.scenes import COLUMNS, FLOE, MODELS, PILE, scene
 from validation.contact_lab.tilts import X, Y, Z, seat_on_column
 
 LOOPS = 60  # of each kind
-POSES = 4000  # along a loop
+POSES = 600  # along a loop, at first: evenly spread
+RESOLVED = 1e-5  # of the peak stored energy: work of a piece of the way that may change when the piece is halved
+HALVINGS = 9  # of a piece, at most: 3e-6 of the way
 SEED = 20150601
 WAVES = 3  # sines of each of the six coordinates
 OVERLAP, SWING = 1e-3, 0.7  # m, mean of the deepest overlap; share by which it swings
@@ -49,52 +51,99 @@ KINDS = (
 )
 
 
-def smooth(random: np.random.Generator, count: int) -> np.ndarray:
-    """A periodic sum of a few sines, sampled `count` times from a start to the same point again, its largest size 1."""
-    turn = np.linspace(0.0, 2.0 * np.pi, count)
-    size, phase = random.normal(size=WAVES) / np.arange(1, WAVES + 1), random.uniform(0.0, 2.0 * np.pi, WAVES)
-    waves = sum(a * np.sin((k + 1) * turn + p) for k, (a, p) in enumerate(zip(size, phase, strict=True)))
-    waves[-1] = waves[0]
-    return waves / np.abs(waves).max()
+class Wave:
+    """A periodic sum of a few sines, its largest size 1."""
+
+    def __init__(self, random: np.random.Generator):
+        self.size, self.phase = random.normal(size=WAVES) / np.arange(1, WAVES + 1), random.uniform(0.0, 2.0 * np.pi, WAVES)
+        self.largest = 1.0
+        self.largest = float(np.abs(self.at(np.linspace(0.0, 1.0, 4001))).max())
+
+    def at(self, way: np.ndarray) -> np.ndarray:
+        """Its values at ways around the loop, 0 to 1."""
+        turn = 2.0 * np.pi * way[:, None] * np.arange(1, WAVES + 1)
+        return (self.size * np.sin(turn + self.phase)).sum(axis=1) / self.largest
 
 
-def loop(probe: Probe, kind: Kind, random: np.random.Generator) -> Poses:
+class Loop:
     """A closed loop: tilt, slide and deepest overlap are random and smooth, the distance along x follows from them.
 
     Against a floe's side the overlap is that of the corners and the side's plane; where a slide carries them past the side's rim,
     the true overlap is smaller.
     """
-    tilt = np.exp(random.uniform(*np.log(TILTS))) * np.column_stack([smooth(random, POSES + 1) for _ in range(3)])
-    slide = SLIDE * np.column_stack([share * smooth(random, POSES + 1) for share in kind.slide])
-    overlap = OVERLAP * (1.0 + SWING * smooth(random, POSES + 1))
-    turn = Rotation.from_rotvec(tilt) * kind.moving
-    corners = np.einsum("nij,vj->nvi", turn.as_matrix(), probe.core(kind.mover))
-    reach = probe.radius(0) + probe.radius(1) - overlap
-    poses = Poses.at_rest(probe, POSES + 1)
-    if kind.partner is PILE:
-        place = seat_on_column(corners[:, :, :2] + [0.0, 1.0] * slide[:, None, :1], reach)
-    else:
-        wall = kind.held.apply(probe.core(0))[:, 0].max()
-        poses = poses.moved(0, position=-wall * X, rotation=kind.held)
-        place = reach - corners[:, :, 0].min(axis=1)
-    return poses.moved(kind.mover, position=np.column_stack([place, slide]), rotation=turn)
+
+    def __init__(self, kind: Kind, random: np.random.Generator):
+        self.kind = kind
+        self.largest_tilt = np.exp(random.uniform(*np.log(TILTS)))
+        self.tilts, self.slides = [Wave(random) for _ in range(3)], [Wave(random) for _ in kind.slide]
+        self.overlap = Wave(random)
+
+    def poses(self, probe: Probe, way: np.ndarray) -> Poses:
+        """At ways (n,) around the loop, 0 to 1, which is the start again."""
+        kind, way = self.kind, way % 1.0
+        tilt = self.largest_tilt * np.column_stack([wave.at(way) for wave in self.tilts])
+        slide = SLIDE * np.column_stack([share * wave.at(way) for share, wave in zip(kind.slide, self.slides, strict=True)])
+        overlap = OVERLAP * (1.0 + SWING * self.overlap.at(way))
+        turn = Rotation.from_rotvec(tilt) * kind.moving
+        corners = np.einsum("nij,vj->nvi", turn.as_matrix(), probe.core(kind.mover))
+        reach = probe.radius(0) + probe.radius(1) - overlap
+        poses = Poses.at_rest(probe, len(way))
+        if kind.partner is PILE:
+            place = seat_on_column(corners[:, :, :2] + [0.0, 1.0] * slide[:, None, :1], reach)
+        else:
+            wall = kind.held.apply(probe.core(0))[:, 0].max()
+            poses = poses.moved(0, position=-wall * X, rotation=kind.held)
+            place = reach - corners[:, :, 0].min(axis=1)
+        return poses.moved(kind.mover, position=np.column_stack([place, slide]), rotation=turn)
 
 
-def work(poses: Poses, answers: Answers, body: int) -> np.ndarray:
-    """Work of the contact on a body from the start to each pose [J], force and moment by trapezoids."""
+@dataclass(frozen=True)
+class Course:
+    """What is known along a loop, at ways (n,) from 0 to 1 in order: poses of the moving body and the load on it."""
+
+    way: np.ndarray
+    place: np.ndarray  # (n, 3) m
+    turn: np.ndarray  # (n, 4) unit quaternions, scalar first
+    force: np.ndarray  # (n, 3) N
+    moment: np.ndarray  # (n, 3) N m
+    energy: np.ndarray  # (n,) J, stored
+
+    def work(self) -> np.ndarray:
+        """Of the contact on the body, from each pose to the next (n - 1,) [J], force and moment by trapezoids."""
+        turn = Rotation.from_quat(self.turn, scalar_first=True)
+        turned = (turn[1:] * turn[:-1].inv()).as_rotvec()
+        force, moment = (0.5 * (load[1:] + load[:-1]) for load in (self.force, self.moment))
+        return (force * np.diff(self.place, axis=0) + moment * turned).sum(axis=1)
+
+    def with_more(self, other: "Course") -> "Course":
+        order = np.argsort(np.concatenate([self.way, other.way]))
+        return Course(*(np.concatenate([getattr(self, name), getattr(other, name)])[order] for name in Course.__dataclass_fields__))
+
+
+def course(probe: Probe, loop: Loop, way: np.ndarray) -> Course:
+    poses, body = loop.poses(probe, way), loop.kind.mover
+    answers = probe.at(poses)
     force = answers.force if body == 1 else -answers.force
-    moment = answers.moment[:, body]
-    turn = Rotation.from_quat(poses.orientation[:, body], scalar_first=True)
-    turned = (turn[1:] * turn[:-1].inv()).as_rotvec()
-    moved = np.diff(poses.position[:, body], axis=0)
-    steps = 0.5 * ((force[1:] + force[:-1]) * moved + (moment[1:] + moment[:-1]) * turned).sum(axis=1)
-    return np.concatenate([[0.0], np.cumsum(steps)])
+    return Course(way, poses.position[:, body], poses.orientation[:, body], force, answers.moment[:, body], answers.energy)
 
 
-def every_other(poses: Poses, answers: Answers) -> tuple[Poses, Answers]:
-    """Half the poses of a loop, the ends among them."""
-    part = slice(None, None, 2)
-    return poses[part], Answers(*(getattr(answers, name)[part] for name in Answers.__dataclass_fields__))
+def resolved(probe: Probe, loop: Loop) -> tuple[Course, float]:
+    """A loop in poses so close that its work is known, and by how much the last halving of all pieces has changed it [J]."""
+    found, left = course(probe, loop, np.linspace(0.0, 1.0, POSES + 1)), 0.0
+    open_pieces = np.ones(POSES, bool)
+    for _ in range(HALVINGS):
+        before, first = found.work()[open_pieces], np.flatnonzero(open_pieces)
+        found = found.with_more(course(probe, loop, 0.5 * (found.way[first] + found.way[first + 1])))
+        half = first + np.arange(len(first))  # where the first halves of these pieces are now
+        work = found.work()
+        change = work[half] + work[half + 1] - before
+        more = np.abs(change) > RESOLVED * found.energy.max()
+        left += float(change[~more].sum())
+        open_pieces = np.zeros(len(work), bool)
+        open_pieces[half[more]] = open_pieces[half[more] + 1] = True
+        if not more.any():
+            return found, abs(left)
+    return found, abs(left + float(change[more].sum()))
 
 
 @dataclass(frozen=True)
@@ -102,16 +151,24 @@ class Balance:
     """Of a loop, relative to its peak stored energy."""
 
     net: float  # net work
-    rough: float  # how much of that comes from the finite number of poses: its change where half of them are left out
+    rough: float  # how much of that comes from the finite number of poses: its change where each piece of the way is halved
 
 
-def balance(poses: Poses, answers: Answers, body: int) -> Balance:
-    peak = float(answers.energy.max())
-    if peak == 0.0:
-        return Balance(0.0, 0.0)
-    net = float(work(poses, answers, body)[-1]) / peak
-    half = float(work(*every_other(poses, answers), body)[-1]) / peak
-    return Balance(net, abs(half - net))
+def balance(probe: Probe, loop: Loop) -> Balance:
+    found, left = resolved(probe, loop)
+    peak = float(found.energy.max())
+    return Balance(float(found.work().sum()) / peak, left / peak) if peak > 0.0 else Balance(0.0, 0.0)
+
+
+def loops_of(kind: Kind, count: int = LOOPS) -> list[Loop]:
+    random = np.random.default_rng([SEED, KINDS.index(kind)])
+    return [Loop(kind, random) for _ in range(count)]
+
+
+def balances(model: str, kind: Kind, count: int = LOOPS) -> list[Balance]:
+    """Of the first `count` loops of a kind."""
+    probe = Probe(scene(model, FLOE, kind.partner))
+    return [balance(probe, loop) for loop in loops_of(kind, count)]
 
 
 @dataclass(frozen=True)
@@ -119,25 +176,17 @@ class Survey:
     """All loops: balances by kind and model, and one loop to show."""
 
     balances: dict[tuple[str, str], list[Balance]]
-    example: dict[str, tuple[np.ndarray, np.ndarray]]  # model -> stored energy and work along the first loop
+    example: dict[str, Course]  # model -> the first loop
 
 
 def survey() -> Survey:
-    balances, example = {}, {}
+    found, example = {}, {}
     for model in MODELS:
-        for order, kind in enumerate(KINDS):
-            random = np.random.default_rng([SEED, order])
-            probe = Probe(scene(model, FLOE, kind.partner))
-            found = []
-            for _ in range(LOOPS):
-                poses = loop(probe, kind, random)
-                answers = probe.at(poses)
-                found.append(balance(poses, answers, kind.mover))
-                if model not in example:
-                    example[model] = answers.energy, work(poses, answers, kind.mover)
-            balances[kind.name, model] = found
+        for kind in KINDS:
+            found[kind.name, model] = balances(model, kind)
             print(f"{kind.name}, {model}: {LOOPS} loops", flush=True)
-    return Survey(balances, example)
+        example[model], _ = resolved(Probe(scene(model, FLOE, KINDS[0].partner)), loops_of(KINDS[0], 1)[0])
+    return Survey(found, example)
 
 
 @styled
@@ -151,10 +200,10 @@ def figure(found: Survey) -> Figure:
     bins = np.geomspace(10.0 ** np.floor(np.log10(low)), 10.0 ** np.ceil(np.log10(2.0 * high)), 41)
     for model in MODELS:
         many.hist(np.maximum(values[model], bins[0]), bins, color=COLOUR[model], alpha=0.55, label=model)
-        energy, paid = found.example[model]
-        way = np.linspace(0.0, 1.0, len(energy))
-        one.plot(way, energy, color=COLOUR[model], label=f"{model}: stored")
-        one.plot(way, energy[0] - paid, color=COLOUR[model], linestyle=":", label=f"{model}: paid by the motion")
+        shown = found.example[model]
+        paid = shown.energy[0] - np.concatenate([[0.0], np.cumsum(shown.work())])
+        one.plot(shown.way, shown.energy, color=COLOUR[model], label=f"{model}: stored")
+        one.plot(shown.way, paid, color=COLOUR[model], linestyle=":", label=f"{model}: paid by the motion")
     many.axvline(ALLOWED, color=BLACK, linewidth=0.8, linestyle="--", label=f"{100 * ALLOWED:g} %")
     many.set_xscale("log")
     many.set_xlabel("|Net work around the loop| / peak stored energy")

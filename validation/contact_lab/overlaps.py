@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from matplotlib.figure import Figure
 
-from dilatedem.post.canvas import new_figure, styled
+from dilatedem.post.canvas import BLACK, new_figure, styled
 from dilatedem.post.labels import number
 from validation.contact_lab import pieces
 from validation.contact_lab.attitudes import attitude, feature_centre
@@ -20,6 +20,9 @@ R = 0.04  # m, dilated radius
 EDGE = 2.0 * HALF_CUBE  # m
 UPRIGHT = 0.5 - 2.0 * R  # m, a floe's vertical edge
 X = np.array([1.0, 0.0, 0.0])
+#: the curves often lie on each other: each must leave something of those below to be seen
+WIDTH = {"liu2015": 3.0, "consistent": 1.6}
+OVER = {"color": BLACK, "linewidth": 0.8, "linestyle": (0, (5, 4))}
 
 
 @dataclass(frozen=True)
@@ -78,6 +81,12 @@ def probe_of(model: str, meeting: Meeting) -> Probe:
     return Probe(scene(model, FLOE, PILE) if meeting.second == "pile" else scene(model, CUBE, CUBE))
 
 
+def over_piece(model: str, meeting: Meeting) -> np.ndarray:
+    """Force over that of the piece, at the overlaps of TABLE."""
+    probe, overlaps = probe_of(model, meeting), np.array(TABLE)
+    return probe.at(place(probe, meeting, overlaps)).strength / meeting.law(overlaps, probe.modulus)
+
+
 @styled
 def figure() -> tuple[Figure, list[str]]:
     """The figure, and the lines of a table: force over that of the piece."""
@@ -88,10 +97,10 @@ def figure() -> tuple[Figure, list[str]]:
         ratios = {}
         for model in MODELS:
             probe = probe_of(model, meeting)
-            axes.plot(1e3 * OVERLAPS, probe.at(place(probe, meeting, OVERLAPS)).strength / 1e3, color=COLOUR[model], label=model)
-            some = probe.at(place(probe, meeting, np.array(TABLE))).strength
-            ratios[model] = some / meeting.law(np.array(TABLE), probe.modulus)
-        axes.plot(1e3 * OVERLAPS, meeting.law(OVERLAPS, probe.modulus) / 1e3, label="piece of elasticity", **REFERENCE)
+            force = probe.at(place(probe, meeting, OVERLAPS)).strength
+            axes.plot(1e3 * OVERLAPS, force / 1e3, color=COLOUR[model], linewidth=WIDTH[model], label=model)
+            ratios[model] = over_piece(model, meeting)
+        axes.plot(1e3 * OVERLAPS, meeting.law(OVERLAPS, probe.modulus) / 1e3, label="piece of elasticity", **OVER)
         axes.set_xscale("log")
         axes.set_yscale("log")
         axes.set_title(meeting.name)

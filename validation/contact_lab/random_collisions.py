@@ -51,12 +51,17 @@ def collision(model: str, random: np.random.Generator) -> Case:
     return scene(model, *floes, speeds=(0.5 * speed, -0.5 * speed))
 
 
+def kept_energies(model: str, count: int = COLLISIONS) -> np.ndarray:
+    """Kinetic energy after over before, of those of the first `count` pairs that meet."""
+    impacts = [collide(collision(model, np.random.default_rng([SEED, i])), patience=LONGEST) for i in range(count)]
+    return np.array([impact.kept for impact in impacts if impact is not None])
+
+
 def survey() -> dict[str, np.ndarray]:
     """model -> kinetic energy after over before, of the collisions that happen."""
     found = {}
     for model in MODELS:
-        kept = [collide(collision(model, np.random.default_rng([SEED, i])), patience=LONGEST) for i in range(COLLISIONS)]
-        found[model] = np.array([impact.kept for impact in kept if impact is not None])
+        found[model] = kept_energies(model)
         print(f"random collisions, {model}: {len(found[model])} of {COLLISIONS} meet", flush=True)
     return found
 

@@ -3,7 +3,7 @@
 from dilatedem.case.schema import Case
 
 #: contact models that are run, in the order of the columns
-MODELS = ("liu2015",)
+MODELS = ("liu2015", "consistent")
 #: columns of the tables; a model that is not run leaves its cells empty
 COLUMNS = ("liu2015", "consistent")
 

@@ -141,16 +141,39 @@ def _changes(answers: Answers, body: int) -> tuple[np.ndarray, np.ndarray]:
     return relative_changes(answers.force, 0.0), relative_changes(answers.moment[:, body], LEVER * answers.strength)
 
 
-def largest_jumps(probe: Probe, poses_at: Callable[[np.ndarray], Poses], end: float, body: int) -> tuple[Jump, Jump]:
-    """Of the force and of the moment: search tilts from 0 to `end` [rad] by STEP, halve the largest changes down to FINEST."""
-    tilts = np.arange(0.0, end, STEP)
+def _places(changes: np.ndarray) -> set[int]:
+    """Of the largest changes, and of those that stick out most: a small jump hides among the changes of a steep place."""
+    beside = np.concatenate([[0.0], changes, [0.0]])
+    excess = changes - np.maximum(beside[:-2], beside[2:])
+    return {*np.argsort(changes)[-NARROWED:].tolist(), *np.argsort(excess)[-NARROWED:].tolist()}
+
+
+def search(probe: Probe, poses_at: Callable[[np.ndarray], Poses], end: float, body: int, scan: float) -> np.ndarray:
+    """Tilts from 0 to `end` [rad] by `scan`, and by STEP wherever the mode, the force or the moment changes most."""
+    tilts = np.arange(0.0, end, scan)
+    if scan <= STEP:
+        return tilts
+    answers = probe.at(poses_at(tilts))
+    force, moment = _changes(answers, body)
+    places = _places(force) | _places(moment) | set(np.flatnonzero(np.diff(answers.mode)).tolist())
+    dense = [np.arange(tilts[max(i - 1, 0)], tilts[min(i + 2, len(tilts) - 1)], STEP) for i in places]
+    return np.unique(np.concatenate([tilts, *dense]))
+
+
+def largest_jumps(
+    probe: Probe, poses_at: Callable[[np.ndarray], Poses], end: float, body: int, *, scan: float = STEP
+) -> tuple[Jump, Jump]:
+    """Of the force and of the moment: search tilts from 0 to `end` [rad] by STEP, halve the largest changes down to FINEST.
+
+    scan [rad]: where larger than STEP, the path is searched by so much first, and by STEP only where it pays.
+    """
+    tilts = search(probe, poses_at, end, body, scan)
     found = _changes(probe.at(poses_at(tilts)), body)
+    close = np.diff(tilts) < 1.5 * STEP
 
     def narrow(which: int) -> Jump:
-        changes, narrowed, place = found[which], 0.0, 0.0
-        beside = np.concatenate([[0.0], changes, [0.0]])
-        excess = changes - np.maximum(beside[:-2], beside[2:])  # a small jump hides among the changes of a steep place
-        for i in {*np.argsort(changes)[-NARROWED:].tolist(), *np.argsort(excess)[-NARROWED:].tolist()}:
+        changes, narrowed, place = np.where(close, found[which], 0.0), 0.0, 0.0
+        for i in _places(changes):
             low, high, left = tilts[i], tilts[i + 1], changes[i]
             while high - low > FINEST:
                 middle = 0.5 * (low + high)

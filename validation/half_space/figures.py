@@ -72,6 +72,7 @@ def draw(rows: list[dict], family: str, parameter: str, path: Path) -> None:
         axis.set_title(title, fontsize=9)
     for axis in axes[:, 0]:
         axis.set_ylabel("F/E*, m$^2$")
-    axes[0, 0].legend(fontsize=8)
+    fullest = max(axes.flat, key=lambda axis: len(axis.get_legend_handles_labels()[0]))  # ends without limit have no line law
+    fullest.legend(fontsize=8)
     figure.savefig(path, dpi=100)
     plt.close(figure)

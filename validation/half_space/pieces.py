@@ -9,7 +9,7 @@ from scipy.special import ellipe, ellipkm1
 
 #: aspect ratio -> beta of a flat rectangular punch, k = 2 E* beta sqrt(area/pi), as computed here (checks.py); elsewhere by the
 #: elliptic punch
-BETA = {1.0: 1.0212, 2.0: 1.0472, 3.0: 1.0904, 5.6: 1.1858, 10.0: 1.3228, 20.0: 1.5532, 42.0: 1.8991, 84.0: 2.3412, 150.0: 2.8248}
+BETA = {1.0: 1.0212, 2.0: 1.0472, 3.0: 1.0869, 5.6: 1.1858, 10.0: 1.3228, 20.0: 1.5532, 42.0: 1.8991, 84.0: 2.3412, 150.0: 2.8248}
 
 #: length over contact width (2b) above which the line law is taken to hold: below, it overrates a short line by more than 30 %
 SLENDER = 0.8

@@ -1,12 +1,12 @@
 """Energy of an edge that presses on the other body's cap: one law for an edge along a face, along an edge and across an edge.
 
 Along the edge the overlap is a quadratic function of the place, piece by piece (over the cap's face, its sides, its corners), so
-that three Gauss points a piece integrate it and its gradient exactly.
+that four Gauss points a piece integrate it and its gradient exactly.
 """
 
 from math import exp, log, pi, sqrt
 
-from dilatedem.contact.consistent.cap import INTERIOR, SIDE, UNBOUNDED, corner_of, nearest, overhang, ramp, side_of
+from dilatedem.contact.consistent.cap import INTERIOR, SIDE, UNBOUNDED, corner_of, nearest, overhang, side_of
 from dilatedem.contact.consistent.point import BLEND
 from dilatedem.jit import device, item
 from dilatedem.numerics.vector import add, along, cross, dot, scale, sub
@@ -21,8 +21,9 @@ STEP = 1e-8
 #: squared sine of the angle between an edge and the plane, or the side, below which its distance from them does not change
 PARALLEL2 = 1e-24
 NONE = (0.0, 0.0, 0.0)
-#: Gauss-Legendre abscissa and weights on -1..1, exact to degree 5
-GAUSS, OUTER, MIDDLE = sqrt(0.6), 5.0 / 9.0, 8.0 / 9.0
+#: Gauss-Legendre abscissae and weights of four points on -1..1, exact to degree 7
+OUTER, INNER = sqrt(3.0 / 7.0 + 2.0 / 7.0 * sqrt(1.2)), sqrt(3.0 / 7.0 - 2.0 / 7.0 * sqrt(1.2))
+LIGHT, HEAVY = 0.5 - sqrt(30.0) / 36.0, 0.5 + sqrt(30.0) / 36.0
 
 
 @device
@@ -101,14 +102,14 @@ def _pressing(w, turn, reach, low, high):
 @item
 def _add_piece(sums, x, e, low, high, w, turn, scratch, which, count, normal, region, place, reach):
     """Add low..high of the line x + s e over one region of the cap, w + s turn from the cap to it, to the sums: the integrals of
-    overlap, its square, its square times the way beyond a side, and beyond a corner, each with minus its gradient as force and
-    moment on the edge's body.
+    overlap, its square, its square times the squared way beyond a side, and beyond a corner, each with minus its gradient as force
+    and moment on the edge's body.
     """
     i1, i2, i3, i4, f1, f2, f3, f4, m1, m2, m3, m4 = sums
     half, middle = 0.5 * (high - low), 0.5 * (high + low)
-    for g in range(3):
-        at = middle + (g - 1) * GAUSS * half
-        weight = half * (MIDDLE if g == 1 else OUTER)
+    for g in range(4):
+        at = middle + half * (OUTER if g % 2 == 0 else INNER) * (1.0 if g < 2 else -1.0)
+        weight = half * (LIGHT if g % 2 == 0 else HEAVY)
         from_cap, point = along(w, at, turn), along(x, at, e)
         overlap = 0.5 * (reach * reach - dot(from_cap, from_cap)) / reach
         push = scale(weight / reach, from_cap)
@@ -121,11 +122,11 @@ def _add_piece(sums, x, e, low, high, w, turn, scratch, which, count, normal, re
                 scratch, which, count, normal, region, place, from_cap, BLEND * reach
             )
             square = weight * overlap * overlap
-            pull = along(scale(2.0 * overlap * side, push), -square, side_gradient)
-            i3, f3, m3 = i3 + square * side, add(f3, pull), add(m3, cross(point, pull))
+            pull = along(scale(2.0 * overlap * side * side, push), -2.0 * square * side, side_gradient)
+            i3, f3, m3 = i3 + square * side * side, add(f3, pull), add(m3, cross(point, pull))
             if corner > 0.0:
-                pull = along(scale(2.0 * overlap * corner, push), -square, corner_gradient)
-                i4, f4, m4 = i4 + square * corner, add(f4, pull), add(m4, cross(point, pull))
+                pull = along(scale(2.0 * overlap * corner * corner, push), -2.0 * square * corner, corner_gradient)
+                i4, f4, m4 = i4 + square * corner * corner, add(f4, pull), add(m4, cross(point, pull))
     return i1, i2, i3, i4, f1, f2, f3, f4, m1, m2, m3, m4
 
 
@@ -171,23 +172,32 @@ def press_edge(p, e, length, radius, scratch, which, count, normal, other, modul
     return _whole_line(sums, radius, other, modulus, sharp)
 
 
+@device
+def _levelled(q):
+    """A value that rises from 0 and levels off at 1 for q = 1, and its slope."""
+    if q >= 1.0:
+        return 1.0, 0.0
+    return q * (2.0 - q), 2.0 * (1.0 - q)
+
+
 @item
 def _whole_line(sums, radius, other, modulus, sharp):
     """Energy, force, moment, length and place beyond the border of an edge from its integrals; as `press_edge` returns them."""
     i1, i2, i3, i4, f1, f2, f3, f4, m1, m2, m3, m4 = sums
     if i2 <= 0.0:
         return 0.0, NONE, NONE, 0.0, 0.0
-    width, their, yielded = BLEND * (radius + other), 0.0, 0.0
+    square, their, yielded = (BLEND * (radius + other)) ** 2, 0.0, 0.0
     if other > 0.0:
-        their, yielded = 1.0 / other, log(1.0 + (radius / other) ** 4) / sharp
-    # how far, on the mean, the line lies beyond the border of the cap: its curvature comes in, and the share of the other's edge
-    across, across_slope = ramp(i3 / (i2 * width))
-    beyond, beyond_slope = ramp(i4 / (i2 * width))
+        their, yielded = 1.0 / other, log(1.0 + (radius / other) ** 8) / sharp
+    # how far, in the mean square, the line lies beyond the border of the cap (the plain mean would have a kink where a parallel
+    # line passes the border): the curvature of the rim comes in, and the share of the other's edge
+    across, across_slope = _levelled(i3 / (i2 * square))
+    beyond, beyond_slope = _levelled(i4 / (i2 * square))
     energy, by_first, by_second, by_curvature = line_energy(modulus, i1, i2, 1.0 / radius + across * their)
     share = exp(-yielded * across)
     kept = share * (1.0 - beyond)  # past a corner it is the corner that presses, a vertex of its own
-    by_side = (by_curvature * their - energy * yielded) * kept * across_slope / (width * i2)
-    by_corner = -energy * share * beyond_slope / (width * i2)
+    by_side = (by_curvature * their - energy * yielded) * kept * across_slope / (square * i2)
+    by_corner = -energy * share * beyond_slope / (square * i2)
     by_first *= kept
     by_second = by_second * kept - (by_side * i3 + by_corner * i4) / i2
     force = add(along(scale(by_first, f1), by_second, f2), along(scale(by_side, f3), by_corner, f4))
