@@ -164,7 +164,7 @@ def differences(found: Pose) -> tuple[float, float, float]:
 def test_force_and_moments_are_minus_the_gradient_of_the_energy(family):
     errors = np.array([differences(found) for found in poses(family, 40)])
     assert np.median(errors, axis=0).max() < 2e-5
-    assert errors.max() < 2e-3
+    assert errors.max() < 5e-4
 
 
 @pytest.mark.parametrize("family", FAMILIES)
@@ -198,10 +198,10 @@ def angle_of_faces(found: Pose) -> float:
 
 @pytest.mark.parametrize("family", FAMILIES)
 def test_the_order_of_the_bodies_does_not_matter(family):
-    """But for two things in the clipping of faces, shares of a patch's breadth sqrt(A), more of a sliver's: b's border reaches
-    MARGIN beyond itself, and faces at an angle are projected along the normal of b, a step aside by the angle times the radii. 3e-4 at
-    the median of faces, 2e-3 where they lean by 0.02 rad, 1 % at most; 5 % was seen for a patch of 0.3 cm2, 2 % of an edge that shares
-    its energy with such a sliver. Without faces nothing but round-off."""
+    """But for two things in the clipping of faces, shares of a patch's breadth sqrt(A), more of a sliver's: the border of b reaches
+    MARGIN beyond itself, and faces at an angle are projected along the normal of b, a step aside by the angle times the radii. 3e-4
+    at the median of faces, 2e-3 where they lean by 0.02 rad, 1 % at most; 5 % was seen for a patch of 0.3 cm2, 2 % of an edge that
+    shares its energy with such a sliver. Without faces nothing but round-off."""
     seen = []
     for found in poses(family, 25):
         pressed, (energy, force, moment) = found.press(), swapped(found)

@@ -75,7 +75,7 @@ REFUSED = {
     "negative thickness": ("ice.thickness=-0.5", r"ice\.thickness = -0\.5: must be greater than 0"),
     "dilated radius": ("ice.dilated_radius=0.3", r"ice\.dilated_radius = 0\.3: must be at most half the thickness, 0\.25 m"),
     "step above the critical": ("time.step=1e-3", r"time\.step = 0\.001: must be at most the critical step.*time\.step = \"auto\""),
-    "consistent": ('contact.model="consistent"', r'contact\.model = "consistent": .*set contact\.model = "liu2015"'),
+    "unknown model": ('contact.model="hertz"', r"contact\.model = \"?'?hertz.*liu2015.*consistent"),
     "two structures of one name": (
         'structure=[{kind="pile", name="a"}, {kind="pile", name="a"}]', r"structure\.1\.name = \"?a\"?: is the name of structure",
     ),

@@ -187,9 +187,12 @@ def test_a_sphere_and_a_capsule_have_no_face():
     assert facing_of(convex_hull([[-1.0, 0.0, 0.0], [1.0, 0.0, 0.0]]), [1.0, 0.0, 0.0], [0.3, 0.0, 1.0]) == -1
 
 
-@pytest.mark.parametrize("tilt", [0.0, 1e-15, -1e-15, 1e-6, -1e-6])
+NO_CAP = pytest.mark.xfail(
+    strict=True, reason="no face has a normal with a positive part along it: the whole core stands for the cap"
+)
+
+
+@pytest.mark.parametrize("tilt", [pytest.param(0.0, marks=NO_CAP), 1e-15, -1e-15, 1e-6, -1e-6])
 def test_a_flat_polygon_met_edge_on_has_a_face(tilt):
     plate = prism(polygon(5, 2.0, 1), 0.0, 0.0)
-    if tilt == 0.0:
-        pytest.xfail("no face has a normal with a positive part along the direction: the whole core stands for the cap")
     assert facing_of(plate, plate.vertices[0], [1.0, 0.2, tilt]) >= 0

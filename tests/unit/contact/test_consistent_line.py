@@ -190,9 +190,9 @@ def test_force_and_moment_are_minus_the_gradient(name):
         size = np.linalg.norm(force)
         worst.append(max(np.linalg.norm(pushed - force), np.linalg.norm(turned - moment)) / size)
     assert np.median(worst) < 1e-5
-    # what lies beyond a corner is no polynomial along the edge: three Gauss points are not exact, and move with the pose
-    assert max(worst) < 0.015
-    assert np.mean(np.array(worst) > 1e-3) < 0.1
+    # what lies beyond a sharp corner is no polynomial along the edge: the Gauss points are not exact there, and move with the pose
+    assert max(worst) < 0.01
+    assert np.mean(np.array(worst) > 1e-3) < 0.06
 
 
 @pytest.mark.parametrize(
