@@ -1,73 +1,98 @@
-"""The paper's case over ice speeds, floe sizes and seeds; writes the tables of the README beside it.
+"""The paper reproduced: runs its case over ice speeds, floe sizes, contact models and seeds, and writes figures and tables.
 
     python -m validation.liu2015.run
 
-from the root of the repository; half an hour on one core. Runs that are there already, in runs/liu2015, are not repeated.
+from the root of the repository. Runs that are done are kept, interrupted ones go on; --report makes the figures of what is
+there, at any time, also beside a running command.
 """
 
-import csv
-import shutil
-import statistics
-import subprocess
+import argparse
+import signal
 import sys
-from collections import defaultdict
+from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
+
+from dilatedem.errors import CaseError
+from validation.liu2015 import page
+from validation.liu2015.measures import Ensemble, results
+from validation.liu2015.plan import MODELS, SEED_COUNT, SPEEDS, plan
+from validation.liu2015.runner import Runner, completed, estimate, say
 
 HERE = Path(__file__).parent
 RUNS = Path("runs/liu2015")
-START, END = "<!-- tables: written by validation/liu2015/run.py -->", "<!-- end of the tables -->"
-
-#: folder -> case and what varies
-SWEEPS = {
-    "speed": ("cases/pile.toml", ["--vary", "water.velocity.0=0.1:0.9:0.2", "--seeds", "2"]),
-    "size_2.8": ("cases/pile.toml", ["--seeds", "3"]),
-    "size_1.79": ("cases/pile_small.toml", ["--seeds", "3"]),
-}
+STOPPED, WRONG = 130, 2
 
 
-def sweep(name: str) -> list[dict]:
-    """Run a sweep, or what is missing of it; returns the rows of its sweep.csv."""
-    case, options = SWEEPS[name]
-    resume = ["--resume"] if (RUNS / name).exists() else []
-    command = [sys.executable, "-m", "dilatedem.cli", "sweep", case, *options, "--out", str(RUNS / name), *resume]
-    subprocess.run(command, check=True)
-    with open(RUNS / name / "sweep.csv", newline="", encoding="utf-8") as file:
-        return list(csv.DictReader(file))
+def arguments(given: Sequence[str] | None = None) -> argparse.Namespace:
+    parser = argparse.ArgumentParser(prog="python -m validation.liu2015.run", description=__doc__.split("\n\n")[0])
+    parser.add_argument("--models", default=",".join(MODELS), help="contact models, joined by commas (%(default)s)")
+    parser.add_argument("--speeds", default=",".join(map(str, SPEEDS)), help="ice speeds of the large floes, m/s (%(default)s)")
+    parser.add_argument("--seeds", type=int, default=SEED_COUNT, help="ice fields a point (%(default)s)")
+    parser.add_argument("--jobs", type=int, default=2, help="runs at a time, of one thread each (%(default)s)")
+    parser.add_argument("--hours", type=float, default=0.0, help="start no new run after so long; adds up with --minutes")
+    parser.add_argument("--minutes", type=float, default=0.0)
+    parser.add_argument("--runs", type=Path, default=RUNS, help="where the run folders are (%(default)s)")
+    parser.add_argument("--out", type=Path, default=HERE, help="where README, figures and runs.csv are written (beside this file)")
+    parser.add_argument(
+        "--set", dest="settings", action="append", default=[], metavar="KEY=VALUE", help="for every run; again for more"
+    )
+    parser.add_argument("--renew", action="store_true", help="run again what was made with other sources")
+    parser.add_argument("--report", action="store_true", help="run nothing; figures and tables of all runs that are done")
+    parser.add_argument("--plan", action="store_true", help="run nothing; list the runs and estimate their time")
+    asked = parser.parse_args(given)
+    asked.models = [model for model in asked.models.split(",") if model]
+    if wrong := [model for model in asked.models if model not in MODELS]:
+        parser.error(f"--models {wrong[0]}: must be of {', '.join(MODELS)}")
+    try:
+        asked.speeds = sorted({float(speed) for speed in asked.speeds.split(",") if speed})
+    except ValueError:
+        parser.error(f"--speeds {asked.speeds}: must be numbers joined by commas, as in 0.1,0.3")
+    if not asked.speeds or asked.speeds[0] <= 0.0 or asked.seeds < 1 or asked.jobs < 1:
+        parser.error("speeds must be above 0, seeds and jobs at least 1")
+    return asked
 
 
-def kilonewtons(row: dict, column: str) -> float:
-    return float(row[f"pile_{column}_N"]) / 1e3
+def report(root: Path, out: Path) -> None:
+    found = results(root)
+    if not found:
+        say(f"{root}: holds no completed run yet, so there is nothing to show")
+        return
+    say(f"{len(found)} completed runs: {page.write(Ensemble(found), out)}")
 
 
-def table(title: str, groups: dict[str, list[dict]]) -> list[str]:
-    """Loads of groups of runs: mean over seeds, and in brackets lowest and highest."""
-    lines = [
-        f"| {title} | seeds | highest Fx, kN | mean Fx, kN | highest Fy, kN | lowest Fy, kN | residual / work of the current |",
-        "| --- | --- | --- | --- | --- | --- | --- |",
-    ]
-    for label, rows in groups.items():
-        cells = [label, str(len(rows))]
-        for column in ("fx_max", "fx_mean", "fy_max", "fy_min"):
-            values = [kilonewtons(row, column) for row in rows]
-            cells.append(f"{statistics.mean(values):.3g} ({min(values):.3g} to {max(values):.3g})")
-        cells.append(f"{max(float(row['residual_over_work']) for row in rows):.1e}")
-        lines.append("| " + " | ".join(cells) + " |")
-    return lines
+def interrupt(*_: Any) -> None:
+    raise KeyboardInterrupt
 
 
-def main() -> None:
-    speeds = defaultdict(list)
-    for row in sweep("speed"):
-        speeds[row["water.velocity.0"]].append(row)
-    sizes = {name.removeprefix("size_"): sweep(name) for name in ("size_2.8", "size_1.79")}
-    subprocess.run([sys.executable, "-m", "dilatedem.cli", "post", str(RUNS / "speed")], check=True)
-    shutil.copy(RUNS / "speed/figures/force_by_water_velocity_0_pile.png", HERE / "force_by_speed.png")
-    lines = [*table("ice speed, m/s", speeds), "", *table("floe size, m", sizes)]
-    readme = HERE / "README.md"
-    before, _, rest = readme.read_text(encoding="utf-8").partition(START)
-    _, _, after = rest.partition(END)
-    readme.write_text("\n".join([before.rstrip(), "", START, "", *lines, "", END]) + after, encoding="utf-8")
+def main(given: Sequence[str] | None = None) -> int:
+    asked = arguments(given)
+    runs = plan(asked.models, asked.speeds, asked.seeds)
+    waiting = [run for run in runs if not completed(run.folder(asked.runs))]
+    seconds = estimate(runs, asked.runs, asked.jobs)
+    if asked.plan:
+        for run in runs:
+            print(f"{'waiting' if run in waiting else 'done':8} {run.name}")
+        say(f"{len(runs)} runs, {len(waiting)} of them to do: about {seconds / 60.0:.0f} minutes with {asked.jobs} at a time")
+        return 0
+    if asked.report:
+        report(asked.runs, asked.out)
+        return 0
+    limit = 3600.0 * asked.hours + 60.0 * asked.minutes
+    signal.signal(signal.SIGTERM, interrupt)
+    say(f"about {seconds / 60.0:.0f} minutes to go" + (f"; no new run after {limit / 60.0:.0f}" if limit else ""))
+    runner = Runner(asked.runs, settings=asked.settings, jobs=asked.jobs, limit=limit or None, renew=asked.renew)
+    try:
+        runner.work(runs)
+    except KeyboardInterrupt:
+        say("interrupted; the same command goes on")
+        return STOPPED
+    except (ValueError, CaseError) as fault:
+        say(str(fault))
+        return WRONG
+    report(asked.runs, asked.out)
+    return 0
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())
