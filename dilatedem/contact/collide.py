@@ -63,7 +63,7 @@ def collide(k, dt, shapes, vertex, face_normal, solids, bodies, pairs, contact, 
     """Evaluate pair k at this instant; writes its rows of `pairs` and nothing else.
 
     vertex (v, 3), face_normal (f, 3): turned to world directions; dt [s]: the step that led here, 0 at the start;
-    scratch (2, MOST_CORNERS, 3). A contact's force is repulsive: Liu 2015, Eq. (3), never below zero.
+    scratch (6, MOST_CORNERS, 3). A contact's force is repulsive: Liu 2015, Eq. (3), never below zero.
     """
     a, b = pairs.a[k], pairs.b[k]
     offset = separation(bodies.position, a, b, surroundings)

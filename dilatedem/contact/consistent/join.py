@@ -20,12 +20,9 @@ SHARE = log(2.0) / SHARP
 HERTZ = 8.0 / 15.0
 #: share of the largest energy below which a feature is left out: its force would be 0.5^15 = 3e-5 of its own
 NEGLECTED = 0.5
-#: sine of the angle of two edges below which a contact counts as parallel in the statistics (forces do not depend on it)
-PARALLEL = 0.02
 
 VERTEX_VERTEX, VERTEX_EDGE, VERTEX_FACE = int(Mode.VERTEX_VERTEX), int(Mode.VERTEX_EDGE), int(Mode.VERTEX_FACE)
-EDGE_CROSSING, EDGE_PARALLEL = int(Mode.EDGE_CROSSING), int(Mode.EDGE_PARALLEL)
-EDGE_FACE, FACE_FACE = int(Mode.EDGE_FACE), int(Mode.FACE_FACE)
+EDGE_PARALLEL, EDGE_FACE, FACE_FACE = int(Mode.EDGE_PARALLEL), int(Mode.EDGE_FACE), int(Mode.FACE_FACE)
 NONE = (0.0, 0.0, 0.0)
 
 
