@@ -113,18 +113,20 @@ def _press_rims(own, scratch, count, radius, their, other, normal, overlap, long
 
 
 @item
-def pose_energy(vertex, face_normal, shapes, a, b, corner_a, corner_b, offset, normal, pb, overlap, modulus, scratch):
+def pose_energy(
+    vertex, face_normal, shapes, a, b, corners, corner_a, corner_b, offset, normal, pb, overlap, modulus, scratch
+):  # fmt: skip
     """Energy W [J] of the pose of two bodies whose dilations overlap; force on b [N] and its moment about a's centroid [N m];
     mode, size (area, length or 1) and spread of the leading feature: two vectors [m] whose squares add up to the second moments of
     its overlap.
 
-    corner_a, corner_b: a closest vertex of each core; offset: centroid of b, normal: unit, from a to b; pb: witness point on b; all
-    relative to a's centroid; overlap [m]: of the dilations, the deepest there is; scratch (6, MOST_CORNERS, 3). The cores must not
+    corner_a, corner_b: [:corners] the closest vertices of each core; offset: centroid of b, normal: unit, from a to b; pb: witness
+    point on b; all relative to a's centroid; overlap [m]: of the dilations, the deepest there is; scratch (6, MOST_CORNERS, 3). The cores must not
     intersect. b may be a half space.
     """
     ra, rb = shapes.radius[a], shapes.radius[b]
     half_space = shapes.kind[b] != 0
-    fa = facing(vertex, face_normal, shapes, a, corner_a, normal)
+    fa = facing(vertex, face_normal, shapes, a, corners, corner_a, normal)
     na = lay_out(vertex, shapes, a, fa, NONE, scratch, 0)
     normal_a, normal_b = normal, scale(-1.0, normal)
     if fa >= 0:
@@ -135,7 +137,7 @@ def pose_energy(vertex, face_normal, shapes, a, b, corner_a, corner_b, offset, n
         for m in range(3):
             scratch[CORNERS + 1, 0, m] = pb[m]
     else:
-        fb = facing(vertex, face_normal, shapes, b, corner_b, normal_b)
+        fb = facing(vertex, face_normal, shapes, b, corners, corner_b, normal_b)
         nb = lay_out(vertex, shapes, b, fb, offset, scratch, 1)
         if fb >= 0:
             normal_b = load(face_normal, fb)
@@ -143,9 +145,7 @@ def pose_energy(vertex, face_normal, shapes, a, b, corner_a, corner_b, offset, n
     sums = 0.0, 0.0, NONE, NONE, VERTEX_FACE, 1.0, (NONE, NONE)
     rims, longest = 1e300, 1e300
     if fa >= 0 and (fb >= 0 or half_space):
-        energy, more, turn, area, bound, spread = press_face(
-            scratch, na, normal_a, nb, normal_b, reach, overlap, modulus
-        )
+        energy, more, turn, area, bound, spread = press_face(scratch, na, normal_a, nb, normal_b, reach, overlap, modulus)
         if energy > 0.0:
             sums = energy, 1.0, scale(-1.0, more), scale(-1.0, turn), FACE_FACE, area, spread
             rims, longest = bound
