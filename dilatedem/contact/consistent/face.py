@@ -18,6 +18,8 @@ BETA = 1.018
 MARGIN = 1e-4
 #: distance, m, within which a corner of the clipped patch is on the side that cut it
 ON = 1e-10
+#: sine of the angle of two sides of a patch, and length of one, m, below which nothing is divided by them
+NEEDLE = 1e-9
 #: cosine of the angle between the faces beyond which they do not press face on face
 STEEP = 0.1
 
@@ -141,22 +143,47 @@ def _resultant(pressure, m, d0, gu, gv):
 
 
 @device
-def _strongest_rim(polygon, count, beyond):
+def _strongest_rim(polygon, count, beyond, lift, overlap):
     """Bounds for any edge that presses where a patch has its rim: integral of the squared overlap along it [m3], its length [m].
 
-    Every edge of one face that lies over the other is a side of the patch; `beyond` [m]: as far as an edge can press past the
-    border of the other face, at either end.
+    Every edge of one face that lies over the other is a side of the patch, and one that runs past the other face by no more than
+    `beyond` [m] has a side of the patch beside it, whose overlap is smaller by up to `lift` [m], the tilt times that way. It
+    goes on past the side's ends until it is `beyond` past the border of the other face: the farther, the smaller its angle with
+    the side that it meets there. Its overlap goes on as along the side, but never above `overlap` [m].
     """
     most, longest = 0.0, 0.0
-    x, y, d = polygon[count - 1, 0], polygon[count - 1, 1], polygon[count - 1, 2]
+    x, y, d = polygon[count - 1, 0], polygon[count - 1, 1], min(polygon[count - 1, 2] + lift, overlap)
+    au, av = _direction(x - polygon[count - 2, 0], y - polygon[count - 2, 1])[:2]
+    bu, bv, length = _direction(polygon[0, 0] - x, polygon[0, 1] - y)
+    sine = abs(au * bv - av * bu)
     for i in range(count):
-        u, v, e = polygon[i, 0], polygon[i, 1], polygon[i, 2]
-        square = d * d + d * e + e * e
-        length = sqrt((u - x) ** 2 + (v - y) ** 2)
-        most = max(most, length * square / 3.0 + 2.0 * beyond * max(d, e) ** 2)
-        longest = max(longest, length)
-        x, y, d = u, v, e
-    return most, longest + 2.0 * beyond
+        e = min(polygon[i, 2] + lift, overlap)
+        j = i + 1 if i + 1 < count else 0
+        cu, cv, following = _direction(polygon[j, 0] - polygon[i, 0], polygon[j, 1] - polygon[i, 1])
+        sine_after = abs(bu * cv - bv * cu)
+        second, further = length * (d * d + d * e + e * e) / 3.0, 0.0
+        for end in range(2):
+            start, fall, sharp = (d, d - e, sine) if end == 0 else (e, e - d, sine_after)
+            way = beyond / max(sharp, NEEDLE)
+            if fall < 0.0:  # less and less, and then nothing
+                way = min(way, -start * length / fall)
+                deepest = start
+            else:
+                deepest = min(overlap, start + fall * way / max(length, NEEDLE))
+            second += way * deepest * deepest
+            further += way
+        most, longest = max(most, second), max(longest, length + further)
+        d, bu, bv, length, sine = e, cu, cv, following, sine_after
+    return most, longest
+
+
+@device
+def _direction(u, v):
+    """Unit vector and length; no direction for two corners in one place."""
+    length = sqrt(u * u + v * v)
+    if length == 0.0:
+        return 0.0, 0.0, 0.0
+    return u / length, v / length, length
 
 
 @item
@@ -185,7 +212,8 @@ def press_face(scratch, count_a, normal_a, count_b, normal_b, reach, overlap, mo
         return 0.0, none, none, 0.0, (0.0, 0.0), (none, none)
     d0 += gu * du + gv * dv
     u0, v0 = polygon[0, 0] + du, polygon[0, 1] + dv
-    rims = _strongest_rim(polygon, count, sqrt(2.0 * reach * overlap))
+    beyond = sqrt(2.0 * reach * overlap)
+    rims = _strongest_rim(polygon, count, beyond, sqrt(gu * gu + gv * gv) * beyond, overlap)
     m = _moments(polygon, count, u0, v0)
     first = d0 * m[0] + gu * m[1] + gv * m[2]
     second = d0 * d0 * m[0] + 2.0 * d0 * (gu * m[1] + gv * m[2]) + gu * gu * m[3] + 2.0 * gu * gv * m[4] + gv * gv * m[5]

@@ -121,8 +121,8 @@ def pose_energy(
     its overlap.
 
     corner_a, corner_b: [:corners] the closest vertices of each core; offset: centroid of b, normal: unit, from a to b; pb: witness
-    point on b; all relative to a's centroid; overlap [m]: of the dilations, the deepest there is; scratch (6, MOST_CORNERS, 3). The cores must not
-    intersect. b may be a half space.
+    point on b; all relative to a's centroid; overlap [m]: of the dilations, the deepest there is; scratch (6, MOST_CORNERS, 3). The
+    cores must not intersect. b may be a half space.
     """
     ra, rb = shapes.radius[a], shapes.radius[b]
     half_space = shapes.kind[b] != 0

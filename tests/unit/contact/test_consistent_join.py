@@ -69,9 +69,6 @@ def test_one_energy_is_little_above_the_largest():
     assert (energies[:, 0] >= energies[:, 2] * (1.0 - 1e-9)).all()
 
 
-@pytest.mark.xfail(
-    strict=True, reason="the length that no edge exceeds is too short where a sliver of a patch lies beside a long rim"
-)
 def test_upright_edges_beside_each_other_both_count():
     # two floes corner on corner, 5 mm into each other and tilted by 2e-3: their patch is a sliver, and both upright edges press
     # over 0.3 m. Which of them are measured must not depend on a hair of overlap
