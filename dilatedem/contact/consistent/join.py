@@ -8,7 +8,7 @@ from math import log, pi, sqrt
 
 from dilatedem.contact.consistent.cap import CORNERS, UNBOUNDED, corner_of, facing, lay_out, lay_sides, side_of
 from dilatedem.contact.consistent.face import press_face
-from dilatedem.contact.consistent.line import OFFSET, SHORT, press_edge
+from dilatedem.contact.consistent.line import line_compliance, press_edge
 from dilatedem.contact.consistent.point import press_vertex
 from dilatedem.jit import device, item
 from dilatedem.numerics.vector import along, cross, dot, load, norm, scale, sub
@@ -18,6 +18,8 @@ from dilatedem.state.modes import Mode
 SHARP = 16.0
 SHARE = log(2.0) / SHARP
 HERTZ = 8.0 / 15.0
+#: m3 and m: no bound on what edges press, and none of its powers overflows
+FAR = 1e100
 #: share of the largest energy below which a feature is left out: its force would be 0.5^15 = 3e-5 of its own
 NEGLECTED = 0.5
 
@@ -54,8 +56,7 @@ def _line_bound(modulus, second, length, overlap, curvature):
     """Upper bound of the energy of an edge with the integral `second` of its squared overlap, no more than `overlap` anywhere, no
     longer than `length`."""
     short = second / (overlap * overlap)  # the shorter the line, the stiffer
-    lam = OFFSET + log(min(short, length) ** 2 * curvature / overlap + SHORT)
-    return 0.5 * pi * modulus * second / (lam + log(lam) + 0.5)
+    return 0.5 * pi * modulus * second / line_compliance(min(short, length) ** 2 * curvature / overlap)[0]
 
 
 @device
@@ -143,7 +144,7 @@ def pose_energy(
             normal_b = load(face_normal, fb)
     reach = ra + rb
     sums = 0.0, 0.0, NONE, NONE, VERTEX_FACE, 1.0, (NONE, NONE)
-    rims, longest = 1e300, 1e300
+    rims, longest = FAR, FAR
     if fa >= 0 and (fb >= 0 or half_space):
         energy, more, turn, area, bound, spread = press_face(scratch, na, normal_a, nb, normal_b, reach, overlap, modulus)
         if energy > 0.0:
