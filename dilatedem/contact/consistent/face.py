@@ -16,6 +16,9 @@ BETA = 1.018
 #: distance, m, by which face b reaches beyond its own border in the clipping. Floes at one height have borders that coincide
 #: exactly; round-off would choose whose border cuts the patch, and with it the side to which its pressure pushes
 MARGIN = 1e-4
+#: minus the cosine between two sides of face b beyond which the border moved out is cut off at their corner: 60 degrees, where it
+#: reaches 2 MARGIN, as far as at any sharper one then
+SHARPEST = 0.5
 #: distance, m, within which a corner of the clipped patch is on the side that cut it
 ON = 1e-10
 #: sine of the angle of two sides of a patch, and length of one, m, below which nothing is divided by them
@@ -86,36 +89,58 @@ def _fence(scratch, k, count, origin, t1, t2, normal):
     return a, b, a * dot(d, t1) + b * dot(d, t2) + MARGIN
 
 
+@device
+def _bevel(scratch, k, count, origin, t1, t2):
+    """Whether the corner at the end of side k of face b is sharp, and the fence across it, as `_fence` gives it."""
+    p, q = corner_of(scratch, 1, k), corner_of(scratch, 1, k + 1 if k + 1 < count else 0)
+    e, f = sub(q, p), sub(corner_of(scratch, 1, (k + 2) % count), q)
+    c = dot(e, f)
+    if c >= 0.0 or c * c <= SHARPEST * SHARPEST * dot(e, e) * dot(f, f):
+        return False, 0.0, 0.0, 0.0
+    out = sub(scale(1.0 / sqrt(dot(e, e)), e), scale(1.0 / sqrt(dot(f, f)), f))
+    unit = 1.0 / sqrt(dot(out, out))
+    a, b, d = unit * dot(out, t1), unit * dot(out, t2), sub(q, origin)
+    return True, a, b, a * dot(d, t1) + b * dot(d, t2) + MARGIN / sqrt(0.5 * (1.0 - SHARPEST))
+
+
+@device
+def _cut(scratch, now, count, a, b, limit):
+    """Clip the patch in buffer `now` by a u + b v <= limit; returns its corner count, its buffer, and whether that cut anything."""
+    for i in range(count):
+        if a * scratch[now, i, 0] + b * scratch[now, i, 1] > limit:
+            return clip_polygon(scratch[now], count, scratch[1 - now], a, b, 0.0, limit), 1 - now, True
+    return count, now, False
+
+
 @item
 def _patch(scratch, count_a, count_b, origin, t1, t2, normal, reach):
     """Clip face a by the sides of face b, then by where the overlap ends; returns the corner count, the buffer that holds it and
-    the sides of b that cut, as bits.
+    the sides of b that cut, as bits, and the sharp corners.
 
     Rows: u, v and the overlap.
     """
     for i in range(count_a):
         d = sub(corner_of(scratch, 0, count_a - 1 - i), origin)  # seen from b's side a's loop runs clockwise
         scratch[0, i, 0], scratch[0, i, 1], scratch[0, i, 2] = dot(d, t1), dot(d, t2), reach - dot(d, normal)
-    count, now, cut = count_a, 0, 0
+    count, now, cut, bevelled = count_a, 0, 0, 0
     for k in range(count_b):
         a, b, limit = _fence(scratch, k, count_b, origin, t1, t2, normal)
-        outside = False
-        for i in range(count):
-            if a * scratch[now, i, 0] + b * scratch[now, i, 1] > limit:
-                outside = True
-                break
+        count, now, outside = _cut(scratch, now, count, a, b, limit)
         if outside:
-            count = clip_polygon(scratch[now], count, scratch[1 - now], a, b, 0.0, limit)
-            now = 1 - now
             cut |= 1 << (k & 63)
-            if count < 3:
-                return 0, now, cut
+        sharp, a, b, limit = _bevel(scratch, k, count_b, origin, t1, t2)
+        if sharp:
+            count, now, outside = _cut(scratch, now, count, a, b, limit)
+            if outside:
+                bevelled |= 1 << (k & 63)
+        if count < 3:
+            return 0, now, cut, bevelled
     for i in range(count):
         if scratch[now, i, 2] < 0.0:
             count = clip_polygon(scratch[now], count, scratch[1 - now], 0.0, 0.0, -1.0, 0.0)
             now = 1 - now
             break
-    return count, now, cut
+    return count, now, cut, bevelled
 
 
 @device
@@ -199,7 +224,7 @@ def press_face(scratch, count_a, normal_a, count_b, normal_b, reach, overlap, mo
         return 0.0, none, none, 0.0, (0.0, 0.0), (none, none)
     t1, t2 = tangents(normal_b)
     origin = corner_of(scratch, 1, 0)
-    count, now, cut = _patch(scratch, count_a, count_b, origin, t1, t2, normal_b, reach)
+    count, now, cut, bevelled = _patch(scratch, count_a, count_b, origin, t1, t2, normal_b, reach)
     if count < 3:
         return 0.0, none, none, 0.0, (0.0, 0.0), (none, none)
     polygon = scratch[now]
@@ -233,6 +258,11 @@ def press_face(scratch, count_a, normal_a, count_b, normal_b, reach, overlap, mo
         if cut >> (k & 63) & 1:
             fence = _fence(scratch, k, count_b, origin, t1, t2, normal_b)
             force, moment = _border(polygon, count, fence, origin, t1, t2, normal_b, reach, force, moment, plane, pressure)
+        if bevelled >> (k & 63) & 1:
+            sharp, across, along_it, limit = _bevel(scratch, k, count_b, origin, t1, t2)
+            if sharp:
+                fence = across, along_it, limit
+                force, moment = _border(polygon, count, fence, origin, t1, t2, normal_b, reach, force, moment, plane, pressure)
     # the second moments as squares of two vectors (Cholesky)
     one = sqrt(juu / first)
     two = juv / (first * one)

@@ -6,10 +6,11 @@ the largest where two are equal and equal to it where one leads; a feature of le
 
 from math import log, pi, sqrt
 
-from dilatedem.contact.consistent.cap import CORNERS, UNBOUNDED, corner_of, facing, lay_out, lay_sides, side_of
+from dilatedem.contact.consistent.cap import CORNERS, UNBOUNDED, corner_of, facing, lay_out, lay_sides, nearest, side_of
 from dilatedem.contact.consistent.face import press_face
 from dilatedem.contact.consistent.line import line_compliance, press_edge
 from dilatedem.contact.consistent.point import press_vertex
+from dilatedem.contact.support import PARALLEL
 from dilatedem.jit import device, item
 from dilatedem.numerics.vector import along, cross, dot, load, norm, scale, sub
 from dilatedem.state.modes import Mode
@@ -24,7 +25,8 @@ FAR = 1e100
 NEGLECTED = 0.5
 
 VERTEX_VERTEX, VERTEX_EDGE, VERTEX_FACE = int(Mode.VERTEX_VERTEX), int(Mode.VERTEX_EDGE), int(Mode.VERTEX_FACE)
-EDGE_PARALLEL, EDGE_FACE, FACE_FACE = int(Mode.EDGE_PARALLEL), int(Mode.EDGE_FACE), int(Mode.FACE_FACE)
+EDGE_CROSSING, EDGE_PARALLEL = int(Mode.EDGE_CROSSING), int(Mode.EDGE_PARALLEL)
+EDGE_FACE, FACE_FACE = int(Mode.EDGE_FACE), int(Mode.FACE_FACE)
 NONE = (0.0, 0.0, 0.0)
 
 
@@ -65,6 +67,17 @@ def _point_bound(modulus, overlap, radius):
     return HERTZ * modulus * overlap * overlap * sqrt(overlap * radius)
 
 
+@device
+def _edges(scratch, which, count, normal, p, e, force, moment):
+    """Mode of an edge p + s e that presses on an edge of cap `which`: by their angle where the force acts."""
+    arm = cross(e, force)
+    square = dot(arm, arm)
+    x = along(p, dot(sub(moment, cross(p, force)), arm) / square, e) if square > 0.0 else p
+    _, place, _ = nearest(scratch, which, count, normal, x)
+    c = dot(e, side_of(scratch, which, place if count > 2 else 0))
+    return EDGE_CROSSING if 1.0 - c * c > PARALLEL * PARALLEL else EDGE_PARALLEL
+
+
 @item
 def _press_rims(own, scratch, count, radius, their, other, normal, overlap, longest, modulus, sums):
     """Add the edges and vertices of cap `own` (0: of a, 1: of b) that press on the other cap to the sums of `_join`; returns those
@@ -94,7 +107,9 @@ def _press_rims(own, scratch, count, radius, their, other, normal, overlap, long
         energy, more, turn, line, across = press_edge(p, e, length, radius, scratch, which, their, normal, other, modulus, SHARP)
         if energy > NEGLECTED * largest:
             if energy > largest:
-                mode, size = EDGE_FACE if across < 0.5 else EDGE_PARALLEL, line
+                mode, size = EDGE_FACE, line
+                if across >= 0.5:
+                    mode = _edges(scratch, which, their, normal, p, e, more, turn)
                 spread = scale(line / sqrt(12.0), e), NONE
             largest, total, force, moment = _join(largest, total, force, moment, energy, scale(sign, more), scale(sign, turn))
     for i in range(count):

@@ -91,7 +91,6 @@ def test_crossing_edges_are_elliptic_hertz(angle, radii):
         assert np.cross(found.force, found.moment) / np.dot(found.force, found.force) == pytest.approx([0.3, 0.0, 0.0], abs=1e-6)
 
 
-@pytest.mark.xfail(strict=True, reason="the model writes EDGE_PARALLEL for all edges; EDGE_CROSSING is not used")
 def test_crossing_edges_are_counted_as_such():
     core = convex_hull([[-1.0, 0.0, 0.0], [1.0, 0.0, 0.0]])
     pair = PairInPlace(core, core)
