@@ -15,8 +15,6 @@ from dilatedem.numerics.vector import add, along, cross, dot, scale, sub
 #: boundary elements for uniform lines (validation/half_space, sharp ends: force 3 % too small at most, down to a length of half the
 #: contact's width) and Hertz's elliptic contact of crossing edges (energy 3 % too large at most)
 BASE, BEND, LEVEL, STUB = 2.09, 2.1, 7.4, 0.63
-#: the same for slender lines, Lam = OFFSET + ln(L^2/(R* overlap) + SHORT) + ln Lam, to 2 %: an estimate for time steps
-OFFSET, SHORT = 0.3, 14.0
 #: share of the edge's length stepped over a border between two regions, so that the next look falls on its far side
 STEP = 1e-8
 #: squared sine of the angle between an edge and the plane, or the side, below which its distance from them does not change
