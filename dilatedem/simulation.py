@@ -32,7 +32,7 @@ from dilatedem.state.bodies import Bodies
 from dilatedem.state.clock import Clock, Status, clock_at_start
 from dilatedem.state.model import Model
 from dilatedem.state.pairs import Pairs, empty_pairs, grown
-from dilatedem.state.record import Ledger, Loads, empty_ledger, empty_loads
+from dilatedem.state.record import Ledger, Loads, Tally, empty_ledger, empty_loads, empty_tally
 from dilatedem.state.workspace import Cells, Workspace, make_cells, make_workspace
 from dilatedem.steps import free_span, time_step, total_steps
 
@@ -74,9 +74,10 @@ class Simulation:
     spare: Pairs = field(init=False)
     cells: Cells = field(init=False)
     workspace: Workspace = field(init=False)
+    tally: Tally = field(init=False)
 
     def __post_init__(self):
-        self.cells = make_cells(self.model.floating)
+        self.cells, self.tally = make_cells(self.model.floating), empty_tally()
         self._make_room()
 
     @classmethod
@@ -151,8 +152,8 @@ class Simulation:
         team = Alone() if self.threads == 1 else Team(self.threads)
         state = self.state
         return Status(kernel(
-            team, self.model, state.bodies, state.pairs, self.spare, self.cells, self.workspace, state.ledger, state.loads,
-            state.clock, *more,
+            team, self.model, state.bodies, state.pairs, self.spare, self.cells, self.workspace, self.tally, state.ledger,
+            state.loads, state.clock, *more,
         ))  # fmt: skip
 
     def _make_room(self) -> None:

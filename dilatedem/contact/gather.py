@@ -1,6 +1,7 @@
-"""Per-contact results summed per body, per structure and per mode, in the order of the pairs.
+"""Per-contact results summed per body, per structure and per mode.
 
-A fixed order makes every sum the same for any number of threads.
+Every sum is taken in the order of the pairs, those of the ledger and of the statistics in a fixed number of parts: results are the same
+for any number of threads.
 """
 
 from math import atan2, pi, sqrt
@@ -47,42 +48,72 @@ def sum_contacts(chosen, first, last, awake, bodies, pairs, workspace):
             bodies.contact_count[b] += 1
 
 
-@device
-def record_contacts(count, dt, model, bodies, pairs, workspace, ledger, loads, clock):
-    """Ledger, contact statistics and loads on structures of this step, from the awake pairs, `count` of them.
+@item
+def book_contact(k, part, dt, floating, shapes, contact, pairs, tally):
+    """Add what pair k cost and showed in this step to row `part` of the tally (`state.record.Tally`)."""
+    tally.work[part, 0] += 1
+    tally.work[part, 1] += pairs.rounds[k]
+    tally.loss_damping[part] += pairs.loss_damping[k]
+    tally.loss_friction[part] += pairs.loss_friction[k]
+    tally.gain_law[part] += pairs.gain_law[k]
+    if pairs.overlap[k] <= 0.0:
+        # what the end of a contact cost is booked once
+        pairs.loss_friction[k] = pairs.loss_damping[k] = pairs.gain_law[k] = 0.0
+        return
+    on_structure, mode = 1 if pairs.b[k] >= floating else 0, pairs.mode[k]
+    tally.mode_steps[part, on_structure, mode] += 1.0
+    tally.mode_impulse[part, on_structure, mode] += pairs.normal_force[k] * dt
+    tally.mode_force[part, on_structure, mode] = max(tally.mode_force[part, on_structure, mode], pairs.normal_force[k])
+    tally.mode_overlap[part, on_structure, mode] = max(tally.mode_overlap[part, on_structure, mode], pairs.overlap[k])
+    if pairs.overlap[k] > deepest_overlap(pairs.a[k], pairs.b[k], shapes, contact) and tally.deep[part] < 0:
+        tally.deep[part] = k
 
-    Returns whether some overlap is past what the method can mean; its culprits go to `clock`.
-    """
+
+@device
+def close_tally(tally, ledger, loads, clock):
+    """Bring a tally to the ledger, the contact statistics and the counts of work, part by part, and empty it."""
+    for part in range(len(tally.deep)):
+        clock.evaluations[0] += tally.work[part, 0]
+        clock.rounds[0] += tally.work[part, 1]
+        tally.work[part, 0] = tally.work[part, 1] = 0
+        ledger.loss_damping[0] += tally.loss_damping[part]
+        ledger.loss_friction[0] += tally.loss_friction[part]
+        ledger.gain_law[0] += tally.gain_law[part]
+        tally.loss_damping[part] = tally.loss_friction[part] = tally.gain_law[part] = 0.0
+        for s in range(2):
+            for mode in range(tally.mode_steps.shape[2]):
+                loads.mode_steps[s, mode] += tally.mode_steps[part, s, mode]
+                loads.mode_impulse[s, mode] += tally.mode_impulse[part, s, mode]
+                loads.mode_force[s, mode] = max(loads.mode_force[s, mode], tally.mode_force[part, s, mode])
+                loads.mode_overlap[s, mode] = max(loads.mode_overlap[s, mode], tally.mode_overlap[part, s, mode])
+                tally.mode_steps[part, s, mode] = tally.mode_impulse[part, s, mode] = 0.0
+                tally.mode_force[part, s, mode] = tally.mode_overlap[part, s, mode] = 0.0
+
+
+@device
+def too_deep(tally, pairs, clock):
+    """Whether some overlap is past what the method can mean; its bodies go to `clock`."""
+    for part in range(len(tally.deep)):
+        k = tally.deep[part]
+        if k >= 0:
+            clock.culprit[0], clock.culprit[1] = pairs.a[k], pairs.b[k]
+            clock.measure[0] = pairs.overlap[k]
+            return True
+    return False
+
+
+@device
+def load_structures(count, dt, floating, bodies, pairs, workspace, loads):
+    """Loads on all structures at this step, from the awake pairs with one, `count` of them."""
     for s in range(len(loads.step_contacts)):
         loads.step_contacts[s] = 0
         for m in range(6):
             loads.step_load[s, m] = 0.0
-    deep = False
-    clock.evaluations[0] += count
     for w in range(count):
-        k = workspace.awake[w]
-        clock.rounds[0] += pairs.rounds[k]
-        ledger.loss_friction[0] += pairs.loss_friction[k]
-        ledger.loss_damping[0] += pairs.loss_damping[k]
-        ledger.gain_law[0] += pairs.gain_law[k]
-        if pairs.overlap[k] <= 0.0:
-            # what the end of a contact cost is booked once
-            pairs.loss_friction[k] = pairs.loss_damping[k] = pairs.gain_law[k] = 0.0
-            continue
-        a, b = pairs.a[k], pairs.b[k]
-        on_structure = 1 if b >= model.floating else 0
-        mode = pairs.mode[k]
-        loads.mode_steps[on_structure, mode] += 1.0
-        loads.mode_impulse[on_structure, mode] += pairs.normal_force[k] * dt
-        loads.mode_force[on_structure, mode] = max(loads.mode_force[on_structure, mode], pairs.normal_force[k])
-        loads.mode_overlap[on_structure, mode] = max(loads.mode_overlap[on_structure, mode], pairs.overlap[k])
-        if on_structure:
-            _load_structure(b - model.floating, bodies, pairs, k, b, load(pairs.force, k), dt, loads)
-        if not deep and pairs.overlap[k] > deepest_overlap(a, b, model.shapes, model.contact):
-            deep = True
-            clock.culprit[0], clock.culprit[1] = a, b
-            clock.measure[0] = pairs.overlap[k]
-    return deep
+        k = workspace.at_structure[w]
+        if pairs.overlap[k] > 0.0:
+            b = pairs.b[k]
+            _load_structure(b - floating, bodies, pairs, k, b, load(pairs.force, k), dt, loads)
 
 
 @item

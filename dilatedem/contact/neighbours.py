@@ -218,12 +218,13 @@ def _start_paths(bodies, floating, pairs, surroundings, skin):
 
 
 @device
-def awake_pairs(step, count, bodies, pairs, workspace):
+def awake_pairs(step, count, floating, bodies, pairs, workspace):
     """Numbers of those of the `count` near pairs whose gap may have closed, to `workspace.awake`; returns how many.
 
-    Their bodies' shapes are asked for at this step.
+    Those with a structure also go to `workspace.at_structure`, their number is returned second. Shapes of the pairs' bodies are asked
+    for at this step.
     """
-    found = 0
+    found = at_structure = 0
     path, near, awake, asked = bodies.path, workspace.near, workspace.awake, workspace.asked
     for w in range(count):
         k = near[w]
@@ -232,4 +233,7 @@ def awake_pairs(step, count, bodies, pairs, workspace):
             awake[found] = k
             found += 1
             asked[a] = asked[b] = step
-    return found
+            if b >= floating:
+                workspace.at_structure[at_structure] = k
+                at_structure += 1
+    return found, at_structure

@@ -5,7 +5,7 @@ on the number of threads. (Writes through a NamedTuple *inside* a prange would b
 """
 
 from dilatedem.contact.collide import collide
-from dilatedem.contact.gather import sum_contacts
+from dilatedem.contact.gather import book_contact, sum_contacts
 from dilatedem.contact.turning import turn_shape
 from dilatedem.jit import by_team, device, prange, shared_loop
 from dilatedem.motion.integrate import complete_spin, drift, kick
@@ -131,35 +131,41 @@ def turn_shapes(team, step, count, model, bodies, workspace):
 
 
 @device
-def _collide_block(block, blocks, count, dt, shapes, solids, contact, surroundings, bodies, pairs, workspace):
-    """Evaluate one of `blocks` equal parts of the awake pairs, in a clipping workspace of its own."""
-    first, last = part(count, block, blocks)
-    for w in range(first, last):
-        collide(
-            workspace.awake[w], dt, shapes, workspace.vertex, workspace.face_normal, solids, bodies, pairs, contact, surroundings,
-            workspace.clip[block],
-        )  # fmt: skip
+def _collide_block(block, blocks, count, dt, floating, shapes, solids, contact, surroundings, bodies, pairs, workspace, tally):
+    """Evaluate and book the awake pairs of some parts of the tally, in a clipping workspace of this block's own."""
+    first_part, last_part = part(len(tally.deep), block, blocks)
+    for p in range(first_part, last_part):
+        tally.deep[p] = -1
+        first, last = part(count, p, len(tally.deep))
+        for w in range(first, last):
+            k = workspace.awake[w]
+            collide(
+                k, dt, shapes, workspace.vertex, workspace.face_normal, solids, bodies, pairs, contact, surroundings,
+                workspace.clip[block],
+            )  # fmt: skip
+            book_contact(k, p, dt, floating, shapes, contact, pairs, tally)
 
 
 @device
-def _collide_alone(team, count, dt, shapes, solids, contact, surroundings, bodies, pairs, workspace):
-    _collide_block(0, 1, count, dt, shapes, solids, contact, surroundings, bodies, pairs, workspace)
+def _collide_alone(team, count, dt, floating, shapes, solids, contact, surroundings, bodies, pairs, workspace, tally):
+    _collide_block(0, 1, count, dt, floating, shapes, solids, contact, surroundings, bodies, pairs, workspace, tally)
 
 
 @shared_loop
-def _collide_shared(team, count, dt, shapes, solids, contact, surroundings, bodies, pairs, workspace):
+def _collide_shared(team, count, dt, floating, shapes, solids, contact, surroundings, bodies, pairs, workspace, tally):
     blocks = team.threads
     for block in prange(blocks):
-        _collide_block(block, blocks, count, dt, shapes, solids, contact, surroundings, bodies, pairs, workspace)
+        _collide_block(block, blocks, count, dt, floating, shapes, solids, contact, surroundings, bodies, pairs, workspace, tally)
 
 
 _collide_all = by_team(_collide_alone, _collide_shared)
 
 
 @device
-def collide_pairs(team, count, dt, model, bodies, pairs, workspace):
-    """Evaluate the awake pairs, `count` of them."""
-    _collide_all(team, count, dt, model.shapes, model.solids, model.contact, model.surroundings, bodies, pairs, workspace)
+def collide_pairs(team, count, dt, model, bodies, pairs, workspace, tally):
+    """Evaluate the awake pairs, `count` of them; what they cost and showed goes to the tally."""
+    m = model
+    _collide_all(team, count, dt, m.floating, m.shapes, m.solids, m.contact, m.surroundings, bodies, pairs, workspace, tally)
 
 
 # --- float -------------------------------------------------------------------------------------------------------------------

@@ -1,6 +1,6 @@
 """The time step: the whole method on one page."""
 
-from dilatedem.contact.gather import record_contacts, record_loads
+from dilatedem.contact.gather import close_tally, load_structures, record_loads, too_deep
 from dilatedem.contact.neighbours import awake_pairs, find_pairs
 from dilatedem.jit import kernel
 from dilatedem.motion.paces import foresee
@@ -11,7 +11,7 @@ DONE, PAIRS_FULL, TOO_FAST, TOO_DEEP = int(Status.DONE), int(Status.PAIRS_FULL),
 
 
 @kernel
-def advance(team, model, bodies, pairs, spare, cells, workspace, ledger, loads, clock, dt, span, steps):
+def advance(team, model, bodies, pairs, spare, cells, workspace, tally, ledger, loads, clock, dt, span, steps):
     """Advance all bodies by up to `steps` steps of dt [s]; returns a `Status`, its culprit in `clock`.
 
     team: `jit.Alone` or `jit.Team`. The method of Liu, Long & Ji (2015): move, meet, float. Bodies hold positions, velocities and
@@ -21,7 +21,8 @@ def advance(team, model, bodies, pairs, spare, cells, workspace, ledger, loads, 
     status, goal = DONE, clock.step[0] + steps
     while status == DONE and clock.step[0] < goal:
         if longest_path(bodies) >= pairs.limit[0] and not find_pairs(model, bodies, pairs, spare, cells, clock):
-            return PAIRS_FULL
+            status = PAIRS_FULL
+            break
         start = clock.step[0]
         ahead, near, busy, idle = foresee(dt, min(span - start % span, goal - start), model, bodies, pairs, workspace)
         while clock.step[0] < start + ahead:
@@ -29,18 +30,20 @@ def advance(team, model, bodies, pairs, spare, cells, workspace, ledger, loads, 
                 status = TOO_FAST
                 break
             clock.step[0] += 1
-            awake = awake_pairs(clock.step[0], near, bodies, pairs, workspace)
+            awake, at_structure = awake_pairs(clock.step[0], near, model.floating, bodies, pairs, workspace)
             turn_shapes(team, clock.step[0], busy, model, bodies, workspace)
-            collide_pairs(team, awake, dt, model, bodies, pairs, workspace)
+            collide_pairs(team, awake, dt, model, bodies, pairs, workspace, tally)
             load_and_kick(team, workspace.busy, busy, awake, dt, model, bodies, pairs, workspace)
-            deep = record_contacts(awake, dt, model, bodies, pairs, workspace, ledger, loads, clock)
+            load_structures(at_structure, dt, model.floating, bodies, pairs, workspace, loads)
             record_loads(loads)
-            if deep or surprised(workspace):
-                status = TOO_DEEP if deep else DONE
+            if too_deep(tally, pairs, clock):
+                status = TOO_DEEP
+            if status != DONE or surprised(workspace):
                 break
         spent = (clock.step[0] - start) * dt
         if not drift_bodies(team, workspace.idle, idle, spent, model, bodies, pairs, workspace, clock):
             status = TOO_FAST
         load_and_kick(team, workspace.idle, idle, 0, spent, model, bodies, pairs, workspace)
+    close_tally(tally, ledger, loads, clock)
     complete_spins(model, bodies)
     return status

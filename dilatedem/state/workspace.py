@@ -22,6 +22,7 @@ class Workspace(NamedTuple):
     face_normal: np.ndarray  # (f, 3) in world directions
     near: np.ndarray  # (m,) pairs that may touch before all bodies stand at one instant again
     awake: np.ndarray  # (m,) pairs to evaluate in this step
+    at_structure: np.ndarray  # (m,) those of them with a structure
     busy: np.ndarray  # (n,) bodies of near pairs, in order
     idle: np.ndarray  # (n,) all others, in order
     is_busy: np.ndarray  # (n,)
@@ -49,6 +50,7 @@ def make_workspace(shapes, hulls, capacity: int, threads: int) -> Workspace:
         face_normal=shapes.face_normal.copy(),
         near=np.zeros(capacity, np.int64),
         awake=np.zeros(capacity, np.int64),
+        at_structure=np.zeros(capacity, np.int64),
         busy=np.zeros(bodies, np.int64),
         idle=np.zeros(bodies, np.int64),
         is_busy=np.zeros(bodies, np.bool_),

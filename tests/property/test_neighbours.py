@@ -8,7 +8,7 @@ from dilatedem.jit import Alone
 from dilatedem.motion.step import advance
 from dilatedem.simulation import Simulation
 from dilatedem.state.pairs import empty_pairs
-from dilatedem.state.record import empty_ledger
+from dilatedem.state.record import empty_ledger, empty_tally
 from dilatedem.state.workspace import make_workspace
 
 
@@ -42,7 +42,7 @@ def test_no_contact_is_missed(boundary):
         clock = type(state.clock)(*(array.copy() for array in state.clock))
         workspace = make_workspace(simulation.model.shapes, simulation.model.hulls, len(fresh.a), 1)
         status = advance(
-            Alone(), simulation.model, copies, fresh, empty_pairs(len(fresh.a)), simulation.cells, workspace, empty_ledger(),
+            Alone(), simulation.model, copies, fresh, empty_pairs(len(fresh.a)), simulation.cells, workspace, empty_tally(), empty_ledger(),
             loads, clock, 0.0, 1, 1,
         )  # fmt: skip
         assert status == 0
