@@ -6,7 +6,7 @@ packed  195 floes at 97 %, nearly all face on face, the 52 at the border held fa
 """
 
 import json
-from math import ceil, sqrt
+from math import sqrt
 from pathlib import Path
 
 import numpy as np
@@ -15,7 +15,7 @@ from benchmarks.tiling import repeated_bodies, repeated_hulls, repeated_shapes, 
 from dilatedem.case.schema import Case
 from dilatedem.simulation import PAIRS_PER_BODY, Simulation, State
 from dilatedem.state.bodies import Bodies
-from dilatedem.state.clock import clock_at_start
+from dilatedem.state.clock import Status, clock_at_start
 from dilatedem.state.pairs import empty_pairs
 from dilatedem.state.record import empty_ledger, empty_loads
 
@@ -25,6 +25,8 @@ FOLDER = Path(__file__).parent / "scenes"
 
 #: time step, s: the one at which the other codes' published figures were taken
 STEP = 1e-4
+#: steps until a scene has settled
+SETTLING = 2000
 #: velocity of the water, m/s, where floes drift; those of `packed` stand in still water
 CURRENT = {"drift": 0.3, "jam": 0.3, "packed": 0.0}
 #: how far a scene may reach beyond its own square and still stand edge to edge with its copy, m (the border of `packed`, held fast)
@@ -82,7 +84,7 @@ def pitch_of(tile: Simulation) -> np.ndarray:
 
 
 def tiled(tile: Simulation, along_x: int, along_y: int, *, threads: int = 1) -> Simulation:
-    """Copies of a scene at t = 0 side by side, each with its own pile; a copy's floes stand together in the arrays.
+    """Copies of a scene as it stands side by side, each with its own pile; a copy's floes stand together in the arrays.
 
     So the work per floe is that of the scene itself, and what is left of a difference is memory and search.
     """
@@ -104,15 +106,19 @@ def tiled(tile: Simulation, along_x: int, along_y: int, *, threads: int = 1) -> 
     return Simulation(tile.case, tile.scene, model, state, tile.dt, tile.critical, threads)
 
 
-def sized(name: str, model: str, floes: int, *, threads: int = 1, tile: Simulation | None = None) -> Simulation:
-    """A scene of about so many floes, its loads at t = 0 evaluated. tile: the scene itself, where it was built before."""
-    tile = tile or scene_simulation(name, model)
+def settled(name: str, model: str) -> Simulation:
+    """A fixed scene after the unrest of its first fifth of a second: the overlaps that it was drawn with have given way."""
+    tile = scene_simulation(name, model)
+    tile.evaluate()
+    status = tile.advance(SETTLING)
+    if status != Status.DONE:
+        raise RuntimeError(f"scene {name} stopped: {status.name}")
+    return tile
+
+
+def sized(tile: Simulation, floes: int, *, threads: int = 1) -> Simulation:
+    """About so many floes in copies of a settled scene, their loads evaluated; friction springs start anew."""
     along_x, along_y = tiles_for(floes, tile.model.floating)
     simulation = tiled(tile, along_x, along_y, threads=threads)
     simulation.evaluate()
     return simulation
-
-
-def whole_steps(seconds: float) -> int:
-    """Steps of the scenes that make up so much simulated time."""
-    return ceil(seconds / STEP - 1e-9)

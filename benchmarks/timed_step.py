@@ -96,11 +96,11 @@ def timed_advance(
 
 
 def timed(simulation, steps: int) -> tuple[dict[str, float], float]:
-    """Advance a simulation whose pairs have room; returns us a step for each stage, the clock's share taken off, and awake pairs."""
+    """Advance a simulation whose pairs have room; returns us a step by stage, less the clock's share, and awake pairs."""
     spent, evaluated, timespec = np.zeros(len(STAGES), np.int64), np.zeros(1, np.int64), np.zeros(2, np.int64)
     status = simulation._call(timed_advance, simulation.dt, steps, spent, evaluated, timespec)
     if status != DONE:
         raise RuntimeError(f"the timed run came back with {status.name}")
     cost = clock_cost()
     per_step = {stage: max(0.0, total / steps - cost) * 1e-3 for stage, total in zip(STAGES, spent.tolist(), strict=True)}
-    return per_step, evaluated[0] / steps
+    return per_step, float(evaluated[0]) / steps
