@@ -50,7 +50,8 @@ def closest_points(vertex, face_normal, shapes, pairs, k, a, b, offset):
     v = (0.0, 0.0, 0.0)
     l0, l1, l2, l3 = 1.0, 0.0, 0.0, 0.0
     last = 1e300
-    for _ in range(MOST_ROUNDS):
+    for searched in range(MOST_ROUNDS):
+        pairs.rounds[k] = searched + 1
         # corners of the Minkowski difference b - a
         w0 = add(offset, sub(load(vertex, cb[k, 0]), load(vertex, ca[k, 0])))
         l0, l1, l2, l3 = 1.0, 0.0, 0.0, 0.0

@@ -33,6 +33,7 @@ def _meet_half_space(vertex, shapes, pairs, k, a, b, position):
     normal = scale(-1.0, out)
     i, low = farthest_vertex(vertex, shapes.vertex_start[a], shapes.vertex_start[a + 1], normal)
     distance = dot(out, sub(load(position, a), load(position, b))) - low
+    pairs.rounds[k] = 1
     pairs.corners[k] = 1
     pairs.corner_a[k, 0] = i
     pa = load(vertex, i)

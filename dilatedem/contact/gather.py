@@ -11,7 +11,7 @@ from dilatedem.state.record import ANGLE_BINS, HEIGHT_BINS
 
 
 @device
-def gather_contacts(awake, count, dt, floating, bodies, pairs, ledger, loads):
+def gather_contacts(awake, count, dt, floating, bodies, pairs, ledger, loads, clock):
     """Contact force and torque on every body; load on every structure; ledger and statistics of this step.
 
     Sleeping pairs have no contact, so the awake ones (`count` of them) are all there is.
@@ -25,8 +25,10 @@ def gather_contacts(awake, count, dt, floating, bodies, pairs, ledger, loads):
         loads.step_contacts[s] = 0
         for m in range(6):
             loads.step_load[s, m] = 0.0
+    clock.evaluations[0] += count
     for w in range(count):
         k = awake[w]
+        clock.rounds[0] += pairs.rounds[k]
         ledger.loss_friction[0] += pairs.loss_friction[k]
         ledger.loss_damping[0] += pairs.loss_damping[k]
         ledger.gain_law[0] += pairs.gain_law[k]

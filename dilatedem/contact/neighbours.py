@@ -55,7 +55,7 @@ def near_structure(shapes, position, a, s, surroundings, skin):
 
 
 @device
-def find_pairs(model, bodies, pairs, spare, cells):
+def find_pairs(model, bodies, pairs, spare, cells, clock):
     """Make the list of pairs anew; returns False, nothing changed, where it has no room.
 
     spare: a second `Pairs` of the same capacity; cells: `state.workspace.Cells`. Pairs that were listed before keep their memory.
@@ -146,6 +146,7 @@ def find_pairs(model, bodies, pairs, spare, cells):
             spare.b[j + 1] = b
     _exchange(pairs, spare, found)
     _start_paths(bodies, floating, pairs, surroundings, skin)
+    clock.rebuilds[0] += 1
     return True
 
 
@@ -172,6 +173,7 @@ def _copy(source, i, target, k):
     """Memory of pair i (-1: none) to pair k; every copy is looked at afresh in the next step."""
     target.wake[k] = -1.0
     new = i < 0
+    target.rounds[k] = 0
     target.corners[k] = 0 if new else source.corners[i]
     for c in range(4):
         target.corner_a[k, c] = 0 if new else source.corner_a[i, c]

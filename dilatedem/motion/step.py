@@ -20,7 +20,7 @@ def advance(team, model, bodies, pairs, spare, cells, workspace, ledger, loads, 
     """
     status = DONE
     for _ in range(steps):
-        if longest_path(bodies) >= pairs.limit[0] and not find_pairs(model, bodies, pairs, spare, cells):
+        if longest_path(bodies) >= pairs.limit[0] and not find_pairs(model, bodies, pairs, spare, cells, clock):
             status = PAIRS_FULL
             break
         if not drift_bodies(dt, model, bodies, pairs, clock):
@@ -30,7 +30,7 @@ def advance(team, model, bodies, pairs, spare, cells, workspace, ledger, loads, 
         awake = awake_pairs(bodies, pairs, workspace.awake)
         turn_awake(clock.step[0], awake, model.shapes, bodies, pairs, workspace)
         collide_pairs(team, awake, dt, model, bodies, pairs, workspace)
-        gather_contacts(workspace.awake, awake, dt, model.floating, bodies, pairs, ledger, loads)
+        gather_contacts(workspace.awake, awake, dt, model.floating, bodies, pairs, ledger, loads, clock)
         load_and_kick(team, dt, model, bodies, workspace)
         record_loads(loads)
         if too_deep(awake, model.shapes, model.contact, pairs, workspace, clock):

@@ -16,11 +16,17 @@ class Status(IntEnum):
 
 
 class Clock(NamedTuple):
+    """How far a run is, why it stopped, and the work it has done: counts that are the same on every machine."""
+
     step: np.ndarray  # (1,) steps done
     status: np.ndarray  # (1,) Status
     culprit: np.ndarray  # (2,) bodies at fault, -1 = none
     measure: np.ndarray  # (1,) the move or the overlap at fault, m
+    evaluations: np.ndarray  # (1,) pairs looked at closely
+    rounds: np.ndarray  # (1,) rounds of their distance searches
+    rebuilds: np.ndarray  # (1,) lists of pairs made
 
 
 def clock_at_start() -> Clock:
-    return Clock(np.zeros(1, np.int64), np.zeros(1, np.int64), np.full(2, -1, np.int64), np.zeros(1))
+    counts = {name: np.zeros(1, np.int64) for name in Clock._fields}
+    return Clock(**counts | {"culprit": np.full(2, -1, np.int64), "measure": np.zeros(1)})

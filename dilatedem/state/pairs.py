@@ -20,6 +20,7 @@ class Pairs(NamedTuple):
     a: np.ndarray  # (m,) body
     b: np.ndarray  # (m,) body; the normal points from a to b
     wake: np.ndarray  # (m,) m, sum of the two paths at which the gap could close
+    rounds: np.ndarray  # (m,) rounds of the last distance search
     corners: np.ndarray  # (m,) corners of the closest simplex, 0 = not known yet
     corner_a: np.ndarray  # (m, 4) vertices of a's core
     corner_b: np.ndarray  # (m, 4) vertices of b's core
@@ -50,7 +51,7 @@ class Pairs(NamedTuple):
 
 
 _WIDTH = {"corner_a": SIMPLEX, "corner_b": SIMPLEX, "normal": 3, "slip": 3, "force": 3, "couple": 3, "point": 3, "arm": 3}
-_WHOLE = {"count", "a", "b", "corners", "corner_a", "corner_b", "mode"}
+_WHOLE = {"count", "a", "b", "rounds", "corners", "corner_a", "corner_b", "mode"}
 _ALONE = {"count": (1,), "frame": (2,), "limit": (1,)}
 
 
