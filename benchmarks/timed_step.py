@@ -55,17 +55,15 @@ def clock_cost(readings: int = 200_000) -> float:
 
 
 @kernel
-def timed_advance(
-    team, model, bodies, pairs, spare, cells, workspace, ledger, loads, clock, dt, steps, spent, evaluated, timespec
-):  # fmt: skip
+def timed_advance(team, model, bodies, pairs, spare, cells, workspace, ledger, loads, clock, dt, steps, spent, timespec):
     """As `advance`, and adds up the time of each stage.
 
-    spent (stages,) int64 [ns] and evaluated (1,) int64, pairs evaluated: both are added to; timespec (2,) int64: room.
+    spent (stages,) int64 [ns] is added to; timespec (2,) int64: room.
     """
     status = DONE
     for _ in range(steps):
         t = _now(timespec)
-        if longest_path(bodies) >= pairs.limit[0] and not find_pairs(model, bodies, pairs, spare, cells):
+        if longest_path(bodies) >= pairs.limit[0] and not find_pairs(model, bodies, pairs, spare, cells, clock):
             status = PAIRS_FULL
             break
         t = _lap(spent, SEARCH, timespec, t)
@@ -80,7 +78,7 @@ def timed_advance(
         t = _lap(spent, TURN, timespec, t)
         collide_pairs(team, awake, dt, model, bodies, pairs, workspace)
         t = _lap(spent, COLLIDE, timespec, t)
-        gather_contacts(workspace.awake, awake, dt, model.floating, bodies, pairs, ledger, loads)
+        gather_contacts(workspace.awake, awake, dt, model.floating, bodies, pairs, ledger, loads, clock)
         t = _lap(spent, GATHER, timespec, t)
         load_and_kick(team, dt, model, bodies, workspace)
         t = _lap(spent, FLOAT, timespec, t)
@@ -90,17 +88,17 @@ def timed_advance(
             status = clock.status[0]
             break
         t = _lap(spent, CHECK, timespec, t)
-        evaluated[0] += awake
     complete_spins(model, bodies)
     return status
 
 
 def timed(simulation, steps: int) -> tuple[dict[str, float], float]:
     """Advance a simulation whose pairs have room; returns us a step by stage, less the clock's share, and awake pairs."""
-    spent, evaluated, timespec = np.zeros(len(STAGES), np.int64), np.zeros(1, np.int64), np.zeros(2, np.int64)
-    status = simulation._call(timed_advance, simulation.dt, steps, spent, evaluated, timespec)
+    spent, timespec, evaluations = np.zeros(len(STAGES), np.int64), np.zeros(2, np.int64), simulation.state.clock.evaluations
+    before = int(evaluations[0])
+    status = simulation._call(timed_advance, simulation.dt, steps, spent, timespec)
     if status != DONE:
         raise RuntimeError(f"the timed run came back with {status.name}")
     cost = clock_cost()
     per_step = {stage: max(0.0, total / steps - cost) * 1e-3 for stage, total in zip(STAGES, spent.tolist(), strict=True)}
-    return per_step, float(evaluated[0]) / steps
+    return per_step, (int(evaluations[0]) - before) / steps
