@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from benchmarks import others, plots, report, results
-from benchmarks.measure import Plan, run_plan
+from benchmarks.measure import Plan, line, rows_of
 from benchmarks.scenes import MODELS, SCENES
 from benchmarks.targets import targets
 
@@ -60,18 +60,23 @@ def plan_of(options: argparse.Namespace) -> Plan | None:
     )  # fmt: skip
 
 
-def write_all(folder: Path, rows: list[dict], figures: list[dict]) -> tuple[list[dict], list[dict]]:
-    """Bring new results into a folder and make its page and pictures anew; returns all results of the folder."""
+def keep(folder: Path, rows: list[dict], figures: list[dict]) -> tuple[list[dict], list[dict]]:
+    """Bring new results into a folder's files; returns all that the folder has now."""
     rows = results.merged(results.read(folder / results.RESULTS), rows, ("scene", "model", "size", "threads"))
     figures = results.merged(results.read(folder / results.OTHERS), figures, ("name",))
     if rows:
         results.write(folder / results.RESULTS, rows)
-        plots.cost_by_size(rows, folder / plots.COST)
-        plots.cost_by_stage(rows, folder / plots.STAGE)
     if figures:
         results.write(folder / results.OTHERS, figures)
-    report.write_page(rows, figures, folder)
     return rows, figures
+
+
+def make_page(folder: Path, rows: list[dict], figures: list[dict]) -> None:
+    """README.md and pictures of a folder of results."""
+    if rows:
+        plots.cost_by_size(rows, folder / plots.COST)
+        plots.cost_by_stage(rows, folder / plots.STAGE)
+    report.write_page(rows, figures, folder)
 
 
 def _print_targets(rows: list[dict], figures: list[dict]) -> None:
@@ -82,15 +87,16 @@ def _print_targets(rows: list[dict], figures: list[dict]) -> None:
 
 
 def main(given: Sequence[str] | None = None) -> None:
-    """Measure what the command line asks for; results are written after each part."""
+    """Measure what the command line asks for; results are written as they come, the page and the pictures at the end."""
     options = arguments(given)
     plan = plan_of(options)
     folder = options.out or (None if options.quick else HERE)
     rows, figures = [], []
-    if plan:
-        rows = run_plan(plan, lambda text: print(text, flush=True))
-        if folder:
-            write_all(folder, rows, [])
+    for row in rows_of(plan) if plan else ():
+        rows.append(row)
+        print(line(row), flush=True)
+        if folder:  # at once: an interrupted evening is not lost
+            keep(folder, rows, [])
     for name, measure in others.OTHERS.items():
         if options.all or getattr(options, name):
             found = measure()
@@ -98,9 +104,10 @@ def main(given: Sequence[str] | None = None) -> None:
             for figure in found:
                 print(f"{figure['name']:16s}{figure['value']:9.4g} {figure['unit']:3s} {figure['note']}", flush=True)
             if folder:
-                write_all(folder, [], found)
+                keep(folder, [], found)
     if folder:
-        rows, figures = write_all(folder, rows, figures)
+        rows, figures = keep(folder, rows, figures)
+        make_page(folder, rows, figures)
     _print_targets(rows, figures)
 
 

@@ -2,10 +2,13 @@
 
 import os
 import platform
+import subprocess
 from datetime import datetime
+from functools import cache
 from importlib import metadata
 from pathlib import Path
 
+from dilatedem import __version__
 from dilatedem.jit import start_threads
 
 
@@ -24,6 +27,17 @@ def processor() -> str:
     return name
 
 
+@cache  # results that are being written make the working tree dirty
+def program() -> str:
+    """Version of dilatedem, with the commit where the sources are a repository's."""
+    try:
+        command = ["git", "describe", "--always", "--dirty", "--exclude", "*"]
+        told = subprocess.run(command, cwd=Path(__file__).parent, capture_output=True, text=True, check=True)
+    except (OSError, subprocess.CalledProcessError):
+        return __version__
+    return f"{__version__} ({told.stdout.strip()})"
+
+
 def load() -> float:
     """Processes that wanted to run in the last minute, on average; nan where the system does not tell."""
     try:
@@ -36,6 +50,7 @@ def describe(threads: int) -> dict[str, str | int | float]:
     """Columns of every result: when, on what, with which versions, and the layer that runs the threads ("none" for one)."""
     return {
         "date": datetime.now().astimezone().isoformat(timespec="minutes"),
+        "program": program(),
         "processor": processor(),
         "cores": os.cpu_count() or 0,
         "load": load(),

@@ -130,17 +130,19 @@ def measured(scene: str, model: str, size: int, threads: int, repeats: int, tile
     return row | describe(threads)
 
 
-def run_plan(plan: Plan, tell) -> list[dict]:
-    """All rows of a plan; tell(text) hears of each."""
-    rows, tiles = [], {}
+def rows_of(plan: Plan):
+    """The rows of a plan, one after the other as they are measured."""
+    tiles = {}
     for scene, model, size, threads in plan.configurations():
         if (scene, model) not in tiles:
             tiles[scene, model] = settled(scene, model)
         describe(threads)  # makes the threads ready
-        row = measured(scene, model, size, threads, plan.repeats, tiles[scene, model])
-        tell(
-            f"{scene:7s}{model:11s}{row['floes']:7d} floes {threads} threads  {row['ms_per_step']:9.4f} ms a step  "
-            f"{row['us_per_floe_step']:7.4f} us a floe-step  {row['contacts']} contacts"
-        )
-        rows.append(row)
-    return rows
+        yield measured(scene, model, size, threads, plan.repeats, tiles[scene, model])
+
+
+def line(row: dict) -> str:
+    """A row in one line, for the screen."""
+    return (
+        f"{row['scene']:7s}{row['model']:11s}{row['floes']:7d} floes {row['threads']} threads"
+        f"{row['ms_per_step']:11.4f} ms a step  {row['us_per_floe_step']:7.4f} us a floe-step  {row['contacts']} contacts"
+    )

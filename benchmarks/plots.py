@@ -2,16 +2,17 @@
 
 from pathlib import Path
 
+from benchmarks.results import grouped
 from benchmarks.scenes import MODELS, SCENES
 from benchmarks.timed_step import STAGES
-from dilatedem.post.canvas import BLACK, BLUE, GREEN, ORANGE, PNG_DPI, PURPLE, SKY, VERMILION, new_figure, styled
+from dilatedem.post.canvas import BLUE, GREEN, ORANGE, PNG_DPI, PURPLE, SKY, VERMILION, new_figure, styled
 
 COST, STAGE = "cost_by_size.png", "cost_by_stage.png"
 _COLOURS = {"liu2015": BLUE, "consistent": VERMILION}
 _LINES = {1: ("-", "o"), 2: ("--", "s")}
 #: the stages that can be seen, with those that cannot under one colour
 _STAGE_COLOURS = {
-    "collide": VERMILION, "turn": ORANGE, "gather": PURPLE, "drift": BLUE, "float": SKY, "wake": GREEN, "search": BLACK,
+    "collide": VERMILION, "turn": ORANGE, "gather": PURPLE, "drift": BLUE, "float": SKY, "wake": GREEN, "search": "#5b6770",
 }  # fmt: skip
 _REST = "#b8bec4"
 
@@ -20,15 +21,17 @@ def _save(figure, path: Path) -> None:
     figure.savefig(path, dpi=PNG_DPI, metadata={"Software": None}, bbox_inches="tight", pad_inches=0.06)
 
 
-def _round(floes: int) -> str:
-    return f"{floes:,}".replace(",", " ")
+def _panels(figure, rows: list[dict]):
+    """Axes with their scene, for the scenes that there are results of."""
+    scenes = [scene for scene in SCENES if any(row["scene"] == scene for row in rows)]
+    return zip(figure.subplots(1, len(scenes), squeeze=False)[0], scenes, strict=True)
 
 
 @styled
 def cost_by_size(rows: list[dict], path: Path) -> None:
     """us per floe-step against the number of floes: a panel for each scene, a line for each model and number of threads."""
     figure = new_figure(9.6, 3.4)
-    for axes, scene in zip(figure.subplots(1, len(SCENES)), SCENES, strict=True):
+    for axes, scene in _panels(figure, rows):
         for model in MODELS:
             for threads, (line, marker) in _LINES.items():
                 mine = sorted(
@@ -54,9 +57,9 @@ def cost_by_stage(rows: list[dict], path: Path) -> None:
     """us per floe-step by stage on one thread: a panel for each scene, a bar for each model and size."""
     figure = new_figure(9.6, 3.8)
     mine = [row for row in rows if row["threads"] == 1]
-    for axes, scene in zip(figure.subplots(1, len(SCENES)), SCENES, strict=True):
-        here = sorted((row for row in mine if row["scene"] == scene), key=lambda row: (MODELS.index(row["model"]), row["floes"]))
-        names = [f"{row['model']} {_round(row['floes'])}" for row in here]
+    for axes, scene in _panels(figure, rows):
+        here = sorted((row for row in mine if row["scene"] == scene), key=lambda row: (MODELS.index(row["model"]), row["size"]))
+        names = [f"{row['model']} {grouped(row['size'])}" for row in here]
         left = [0.0] * len(here)
         seen = [*_STAGE_COLOURS, "the rest"]
         for stage in seen:

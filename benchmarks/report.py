@@ -3,6 +3,7 @@
 from pathlib import Path
 
 from benchmarks.plots import COST, STAGE
+from benchmarks.results import grouped
 from benchmarks.scenes import MODELS, SCENES
 from benchmarks.targets import targets
 from benchmarks.timed_step import STAGES
@@ -40,11 +41,6 @@ def _number(value: float | None, digits: int = 3) -> str:
     return f"{float(text):g}" if "e" in text else text
 
 
-def count(value: int) -> str:
-    """A whole number in groups of three digits."""
-    return f"{value:,}".replace(",", " ")
-
-
 def _find(rows: list[dict], **wanted) -> dict | None:
     return next((row for row in rows if all(row[key] == value for key, value in wanted.items())), None)
 
@@ -60,8 +56,8 @@ def _machine(rows: list[dict]) -> str:
     loads = [row["load"] for row in rows]
     return (
         f"Measured {dates[0].replace('T', ' ')} to {dates[-1].replace('T', ' ')} on {last['processor']}, {last['cores']} cores, "
-        f"{last['system']}; Python {last['python']}, Numba {last['numba']}, NumPy {last['numpy']}; threads by "
-        f"{', '.join(layers) or 'none'}. Processes that wanted to run meanwhile, this one included: {min(loads):.1f} to "
+        f"{last['system']}; dilatedem {last['program']}, Python {last['python']}, Numba {last['numba']}, NumPy {last['numpy']}; "
+        f"threads by {', '.join(layers) or 'none'}. Processes that wanted to run meanwhile, this one included: {min(loads):.1f} to "
         f"{max(loads):.1f}."
     )
 
@@ -90,12 +86,12 @@ def _against_others(rows: list[dict]) -> str:
         "coal is the yardstick: one distance for each pair of floes whose bounding boxes overlap and one collision for each "
         "contact of the same state, asked from Python, less what the same calls take on two spheres. "
         if known
-        else "coal, the yardstick, was not installed: no figures of the same minute. "
+        else "coal, the yardstick, was not installed: there are no figures of the same minute. "
     )
     return "\n\n".join([
         "## A step at 200 floes, ms, one thread", _table(["", *SCENES], lines),
-        text + "All rows after that are published figures, measured on the same kind of machine on another day: good for the order "
-        "of magnitude, not for the last tenth.",
+        text + f"The rows below {'it' if known else 'our own'} are published figures, measured on the same kind of machine on "
+        "another day: good for the order of magnitude, not for the last tenth.",
     ])  # fmt: skip
 
 
@@ -109,7 +105,7 @@ def _by_size(rows: list[dict]) -> str:
             found = [_find(rows, scene=scene, model=model, size=size, threads=threads) for size, threads in columns]
             if any(found):
                 lines.append([f"{scene}, {model}", *(_number(row["ms_per_step"]) if row else "–" for row in found)])
-    parts.append(_table(["", *(f"{count(size)} / {threads}" for size, threads in columns)], lines))
+    parts.append(_table(["", *(f"{grouped(size)} / {threads}" for size, threads in columns)], lines))
     return "\n\n".join(parts)
 
 
@@ -119,8 +115,8 @@ def _by_stage(rows: list[dict]) -> str:
     for row in rows:
         if row["threads"] == 1:
             lines.append([
-                f"{row['scene']}, {row['model']}", count(row["floes"]), count(row["contacts"]), count(row["listed_pairs"]),
-                count(round(row["awake_pairs"])), f"{row['particle_steps_per_s'] / 1e6:.2f}e6", _number(1e3 * row["ms_per_step"]),
+                f"{row['scene']}, {row['model']}", grouped(row["floes"]), grouped(row["contacts"]), grouped(row["listed_pairs"]),
+                grouped(round(row["awake_pairs"])), f"{row['particle_steps_per_s'] / 1e6:.2f}e6", _number(1e3 * row["ms_per_step"]),
                 *(_number(row[f"{stage}_us"]) for stage in STAGES),
             ])  # fmt: skip
     words = (

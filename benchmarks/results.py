@@ -5,7 +5,9 @@ from pathlib import Path
 
 RESULTS, OTHERS = "results.csv", "results_others.csv"
 #: columns that hold words; the others hold numbers, empty where there is none
-WORDS = {"scene", "model", "name", "unit", "note", "date", "processor", "system", "python", "numba", "numpy", "coal", "layer"}
+WORDS = {
+    "scene", "model", "name", "unit", "note", "date", "program", "processor", "system", "python", "numba", "numpy", "coal", "layer",
+}  # fmt: skip
 #: columns that hold whole numbers
 WHOLE = {"size", "floes", "threads", "steps", "contacts", "listed_pairs", "near_pairs", "coal_contacts", "cores"}
 
@@ -26,6 +28,11 @@ def _value(name: str, text: str):
     return int(text) if name in WHOLE else float(text)
 
 
+def grouped(value: int) -> str:
+    """A whole number for a reader, in groups of three digits where it has more than four."""
+    return f"{value:,}".replace(",", " ") if value >= 10_000 else str(value)
+
+
 def _text(value) -> str:
     if value is None:
         return ""
@@ -42,7 +49,12 @@ def write(path: Path, rows: list[dict]) -> None:
 
 
 def merged(old: list[dict], new: list[dict], keys: tuple[str, ...]) -> list[dict]:
-    """New rows in the place of the old ones with the same keys, others after them."""
+    """New rows in the place of the old ones with the same keys, others after them.
+
+    Old rows with other columns come from another state of these programs, and go.
+    """
+    if new:
+        old = [row for row in old if set(row) == set(new[0])]
     fresh = {tuple(row[key] for key in keys): row for row in new}
     kept = [fresh.pop(tuple(row[key] for key in keys), row) for row in old]
     return kept + list(fresh.values())
