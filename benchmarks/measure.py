@@ -16,13 +16,15 @@ from dilatedem.state.clock import Status
 #: steps before the first that is timed: friction springs that the copies of a scene start without
 WARMING = 100
 #: steps of the stretch that is timed, for sizes that allow it: the same stretch whatever the size, or costs could not be compared
-STRETCH = 500
+STRETCH = 250
 #: floe-steps of a stretch at most: larger sizes take fewer steps
-LONGEST_WORK = 5_000_000
+LONGEST_WORK = 2_500_000
 #: shortest time of one measurement, s; the stretch is repeated from its start until it is reached
 SHORTEST = 0.3
 #: floes up to which coal is asked: it answers pair by pair
 YARDSTICK_FLOES = 500
+#: floes from which fewer repeats have to do: they take long, and the machine's unrest is averaged over more steps
+LARGE = 5000
 
 
 @dataclass(frozen=True)
@@ -110,7 +112,7 @@ def measured(scene: str, model: str, size: int, threads: int, repeats: int, tile
     row = {
         "scene": scene, "model": model, "size": size, "floes": floes, "threads": threads, "steps": steps, "dt_s": simulation.dt,
     }  # fmt: skip
-    large = floes > 50_000
+    large = floes >= LARGE
     times = [replay.seconds() / steps for _ in range(min(repeats, 3) if large else repeats)]
     best = min(times)
     row |= {
