@@ -112,7 +112,7 @@ def _by_size(rows: list[dict]) -> str:
 def _by_stage(rows: list[dict]) -> str:
     header = ["", "floes", "contacts", "listed pairs", "awake pairs", "floe-steps/s", "step", *STAGES]
     lines = []
-    for row in rows:
+    for row in sorted(rows, key=lambda row: (SCENES.index(row["scene"]), MODELS.index(row["model"]), row["size"])):
         if row["threads"] == 1:
             lines.append([
                 f"{row['scene']}, {row['model']}", grouped(row["floes"]), grouped(row["contacts"]), grouped(row["listed_pairs"]),
