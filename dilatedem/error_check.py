@@ -73,6 +73,7 @@ class Watch:
     """
 
     dt: float  # s
+    span: int = 1  # steps after which all bodies stand at one instant
     peak: float = 0.0  # N
     structure: int = -1  # its number, -1 = none was touched
     until: int = 0  # step of the look that saw the peak
@@ -83,7 +84,7 @@ class Watch:
     windows: Schedule = field(init=False)  # when a copy is due
 
     def __post_init__(self):
-        self.windows = Schedule(WINDOW, self.dt)
+        self.windows = Schedule(WINDOW, self.dt, self.span)
 
     def look(self, state) -> None:
         """At every end of a window of forces.csv, before it is closed, at every window of this watch, and at the run's end."""

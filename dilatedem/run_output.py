@@ -70,14 +70,14 @@ class RunOutput:
         self._writer = SnapshotWriter([body.shape.outer for body in simulation.scene.bodies])
         self._began = time.perf_counter()
         self._checked: dict = {}  # what the check of the time step found
-        output, dt = simulation.case.output, simulation.dt
-        self._forces = Schedule(output.force_interval, dt)
-        self._energy = Schedule(output.energy_interval, dt)
-        self._snapshots = Schedule(output.snapshot_interval, dt)
-        self._checkpoints = Schedule(output.checkpoint_interval, dt)
+        output, pace = simulation.case.output, (simulation.dt, simulation.span)
+        self._forces = Schedule(output.force_interval, *pace)
+        self._energy = Schedule(output.energy_interval, *pace)
+        self._snapshots = Schedule(output.snapshot_interval, *pace)
+        self._checkpoints = Schedule(output.checkpoint_interval, *pace)
         count = simulation.model.floating
         self._tracked = np.arange(count) if output.track == "all" else np.array(output.track, np.int64)
-        self._track = Schedule(output.track_interval if len(self._tracked) else 0.0, dt)
+        self._track = Schedule(output.track_interval if len(self._tracked) else 0.0, *pace)
 
     @staticmethod
     def _columns() -> dict:

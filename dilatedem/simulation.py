@@ -34,6 +34,7 @@ from dilatedem.state.model import Model
 from dilatedem.state.pairs import Pairs, empty_pairs, grown
 from dilatedem.state.record import Ledger, Loads, empty_ledger, empty_loads
 from dilatedem.state.workspace import Cells, Workspace, make_cells, make_workspace
+from dilatedem.steps import free_span, time_step, total_steps
 
 #: steps between two looks at the keyboard and the progress bar, where no output is due earlier
 LONGEST_CHUNK = 2000
@@ -68,6 +69,7 @@ class Simulation:
     state: State
     dt: float
     critical: float
+    span: int = 1  # steps that bodies which nothing can touch take in one
     threads: int = 1
     spare: Pairs = field(init=False)
     cells: Cells = field(init=False)
@@ -90,12 +92,13 @@ class Simulation:
         bodies = initial_bodies(case, scene, model)
         critical = critical_step(model, bodies)
         dt = time_step(case, critical)
+        span = free_span(case, dt)
         state = State(
             bodies, empty_pairs(PAIRS_PER_BODY * len(scene.bodies) + 64), empty_ledger(),
             empty_loads(*load_map_geometry(case, scene)), clock_at_start(), Totals(),
-            Watch(dt) if case.time.error_check else None,
+            Watch(dt, span) if case.time.error_check else None,
         )  # fmt: skip
-        return cls(case, scene, model, state, dt, critical, threads)
+        return cls(case, scene, model, state, dt, critical, span, threads)
 
     @property
     def time_s(self) -> float:
@@ -111,14 +114,13 @@ class Simulation:
         status = self.advance(1, dt=0.0)
         self.state.clock.step[0] = 0
         self.state.loads.steps[0] = 0
-        self.workspace.turned[:] = -1  # or the first step would take the shapes for turned already
         return status
 
     def advance(self, steps: int, *, dt: float | None = None) -> Status:
         """Up to `steps` steps; fewer where something is wrong (see `state.clock`)."""
         goal = int(self.state.clock.step[0]) + steps
         while True:
-            status = self._call(advance, self.dt if dt is None else dt, goal - int(self.state.clock.step[0]))
+            status = self._call(advance, self.dt if dt is None else dt, self.span, goal - int(self.state.clock.step[0]))
             if status != Status.PAIRS_FULL:
                 return status
             self.state.pairs = grown(self.state.pairs, 2 * len(self.state.pairs.a))
@@ -157,26 +159,6 @@ class Simulation:
         capacity = len(self.state.pairs.a)
         self.spare = empty_pairs(capacity)
         self.workspace = make_workspace(self.model.shapes, self.model.hulls, capacity, self.threads)
-
-
-def time_step(case: Case, critical: float) -> float:
-    """The step [s]: the case's own, or a share of the critical one that divides the force window.
-
-    Raises CaseError for a step above the critical one.
-    """
-    if case.time.step != "auto":
-        if case.time.step > critical:
-            raise CaseError(
-                f"time.step = {case.time.step:g}: must be at most the critical step of the stiffest contact, {critical:.3g} s; "
-                f'set time.step = "auto" for {case.time.step_fraction:g} of it'
-            )
-        return case.time.step
-    longest = min(case.time.step_fraction * critical, case.output.force_interval, case.time.duration)
-    return case.output.force_interval / math.ceil(case.output.force_interval / longest - 1e-9)
-
-
-def total_steps(case: Case, dt: float) -> int:
-    return math.ceil(case.time.duration / dt - 1e-9)
 
 
 def check(case: Case) -> dict:

@@ -5,29 +5,62 @@ A fixed order makes every sum the same for any number of threads.
 
 from math import atan2, pi, sqrt
 
+from dilatedem.contact.collide import CONSISTENT
+from dilatedem.contact.consistent.press import DEEPEST_SHARE
 from dilatedem.jit import device, item
 from dilatedem.numerics.vector import accumulate, add, cross, load, scale, sub
 from dilatedem.state.record import ANGLE_BINS, HEIGHT_BINS
 
+#: overlap, in units of the smaller dilated radius of the two, past which the run stops
+DEEPEST = 4.0
+
 
 @device
-def gather_contacts(awake, count, dt, floating, bodies, pairs, ledger, loads, clock):
-    """Contact force and torque on every body; load on every structure; ledger and statistics of this step.
+def sum_contacts(chosen, first, last, awake, bodies, pairs, workspace):
+    """Contact force and torque on the bodies chosen[first:last] (numbers in order).
 
-    Sleeping pairs have no contact, so the awake ones (`count` of them) are all there is.
+    Sleeping pairs have no contact, so the `awake` ones (their number) are all there is; every part of a list goes through them.
     """
-    for i in range(len(bodies.contact_count)):
+    low, high = chosen[first], chosen[last - 1]
+    for w in range(first, last):
+        i = chosen[w]
         bodies.contact_count[i] = 0
         for m in range(3):
             bodies.contact_force[i, m] = 0.0
             bodies.contact_torque[i, m] = 0.0
+    for w in range(awake):
+        k = workspace.awake[w]
+        a, b = pairs.a[k], pairs.b[k]
+        if a > high:
+            break  # pairs are sorted by a, and b > a
+        if pairs.overlap[k] <= 0.0 or b < low:
+            continue
+        force, couple = load(pairs.force, k), load(pairs.couple, k)
+        if a >= low:
+            torque = add(couple, cross(load(pairs.point, k), force))
+            accumulate(bodies.contact_force, a, scale(-1.0, force))
+            accumulate(bodies.contact_torque, a, scale(-1.0, torque))
+            bodies.contact_count[a] += 1
+        if b <= high:
+            accumulate(bodies.contact_force, b, force)
+            accumulate(bodies.contact_torque, b, add(couple, cross(load(pairs.arm, k), force)))
+            bodies.contact_count[b] += 1
+
+
+@device
+def record_contacts(count, dt, model, bodies, pairs, workspace, ledger, loads, clock):
+    """Ledger, contact statistics and loads on structures of this step, from the awake pairs, `count` of them.
+
+    Returns whether some overlap is past what the method can mean; its culprits go to `clock`.
+    """
     for s in range(len(loads.step_contacts)):
         loads.step_contacts[s] = 0
         for m in range(6):
             loads.step_load[s, m] = 0.0
+    deep = False
     clock.evaluations[0] += count
     for w in range(count):
-        k = awake[w]
+        k = workspace.awake[w]
         clock.rounds[0] += pairs.rounds[k]
         ledger.loss_friction[0] += pairs.loss_friction[k]
         ledger.loss_damping[0] += pairs.loss_damping[k]
@@ -37,24 +70,28 @@ def gather_contacts(awake, count, dt, floating, bodies, pairs, ledger, loads, cl
             pairs.loss_friction[k] = pairs.loss_damping[k] = pairs.gain_law[k] = 0.0
             continue
         a, b = pairs.a[k], pairs.b[k]
-        force = load(pairs.force, k)
-        couple = load(pairs.couple, k)
-        torque_a = add(couple, cross(load(pairs.point, k), force))
-        torque_b = add(couple, cross(load(pairs.arm, k), force))
-        accumulate(bodies.contact_force, a, scale(-1.0, force))
-        accumulate(bodies.contact_torque, a, scale(-1.0, torque_a))
-        accumulate(bodies.contact_force, b, force)
-        accumulate(bodies.contact_torque, b, torque_b)
-        bodies.contact_count[a] += 1
-        bodies.contact_count[b] += 1
-        on_structure = 1 if b >= floating else 0
+        on_structure = 1 if b >= model.floating else 0
         mode = pairs.mode[k]
         loads.mode_steps[on_structure, mode] += 1.0
         loads.mode_impulse[on_structure, mode] += pairs.normal_force[k] * dt
         loads.mode_force[on_structure, mode] = max(loads.mode_force[on_structure, mode], pairs.normal_force[k])
         loads.mode_overlap[on_structure, mode] = max(loads.mode_overlap[on_structure, mode], pairs.overlap[k])
         if on_structure:
-            _load_structure(b - floating, bodies, pairs, k, b, force, dt, loads)
+            _load_structure(b - model.floating, bodies, pairs, k, b, load(pairs.force, k), dt, loads)
+        if not deep and pairs.overlap[k] > deepest_overlap(a, b, model.shapes, model.contact):
+            deep = True
+            clock.culprit[0], clock.culprit[1] = a, b
+            clock.measure[0] = pairs.overlap[k]
+    return deep
+
+
+@item
+def deepest_overlap(a, b, shapes, contact):
+    """Overlap [m] past which rounded edges mean nothing any more."""
+    smaller = shapes.radius[a] if shapes.kind[b] != 0 else min(shapes.radius[a], shapes.radius[b])
+    if contact.model == CONSISTENT:
+        return min(DEEPEST * smaller, DEEPEST_SHARE * (shapes.radius[a] + shapes.radius[b]))
+    return DEEPEST * smaller
 
 
 @item

@@ -218,12 +218,18 @@ def _start_paths(bodies, floating, pairs, surroundings, skin):
 
 
 @device
-def awake_pairs(bodies, pairs, awake):
-    """Numbers of the pairs whose gap may have closed, in `awake`; returns how many."""
-    count = 0
-    path = bodies.path
-    for k in range(pairs.count[0]):
-        if path[pairs.a[k]] + path[pairs.b[k]] >= pairs.wake[k]:
-            awake[count] = k
-            count += 1
-    return count
+def awake_pairs(step, count, bodies, pairs, workspace):
+    """Numbers of those of the `count` near pairs whose gap may have closed, to `workspace.awake`; returns how many.
+
+    Their bodies' shapes are asked for at this step.
+    """
+    found = 0
+    path, near, awake, asked = bodies.path, workspace.near, workspace.awake, workspace.asked
+    for w in range(count):
+        k = near[w]
+        a, b = pairs.a[k], pairs.b[k]
+        if path[a] + path[b] >= pairs.wake[k]:
+            awake[found] = k
+            found += 1
+            asked[a] = asked[b] = step
+    return found

@@ -1,6 +1,6 @@
 """Shapes turned to world directions, only for bodies that some awake pair looks at."""
 
-from dilatedem.jit import device, item
+from dilatedem.jit import item
 from dilatedem.numerics.rotation import rotation_matrix, to_world
 from dilatedem.numerics.vector import load, store
 
@@ -13,14 +13,3 @@ def turn_shape(body, shapes, orientation, vertex, face_normal):
         store(vertex, i, to_world(R, load(shapes.vertex, i)))
     for f in range(shapes.face_start[body], shapes.face_start[body + 1]):
         store(face_normal, f, to_world(R, load(shapes.face_normal, f)))
-
-
-@device
-def turn_awake(step, count, shapes, bodies, pairs, workspace):
-    """Turn every body of the awake pairs that this step has not turned yet."""
-    for w in range(count):
-        k = workspace.awake[w]
-        for body in (pairs.a[k], pairs.b[k]):
-            if workspace.turned[body] != step:
-                workspace.turned[body] = step
-                turn_shape(body, shapes, bodies.orientation, workspace.vertex, workspace.face_normal)

@@ -28,36 +28,53 @@ def spin_of(i, solids, orientation, momentum):
 
 
 @item
+def _middle(i, dt, solids, bodies, R):
+    """Velocity [m/s], angular momentum [kg m2/s] and spin [rad/s] of body i half a step ahead, kicked by the loads there are.
+
+    R: its rotation matrix. The spin is in the body frame, from Euler's equation.
+    """
+    velocity = along(load(bodies.velocity, i), 0.5 * dt * solids.inverse_mass[i], load(bodies.force, i))
+    momentum = along(load(bodies.angular_momentum, i), 0.5 * dt, load(bodies.torque, i))
+    own = to_body(R, momentum)
+    own = along(own, 0.5 * dt, cross(own, _times(solids.inverse_inertia, i, own)))
+    return velocity, momentum, _times(solids.inverse_inertia, i, own)
+
+
+@item
+def _travel(dt, velocity, spin, reach, frame):
+    """Bound on the distance [m] that any point of a body moves, in the frame (2,) [m/s] where paths are measured."""
+    # sums instead of lengths: no smaller, and without a square root
+    moved = abs(velocity[0] - frame[0]) + abs(velocity[1] - frame[1]) + abs(velocity[2])
+    return dt * (moved + (abs(spin[0]) + abs(spin[1]) + abs(spin[2])) * reach)
+
+
+@item
+def travel(i, dt, solids, bodies, reach, frame):
+    """How far `drift` would move body i at most [m]; nothing is written."""
+    q = bodies.orientation
+    velocity, _, spin = _middle(i, dt, solids, bodies, rotation_matrix(q[i, 0], q[i, 1], q[i, 2], q[i, 3]))
+    return _travel(dt, velocity, spin, reach, frame)
+
+
+@item
 def drift(i, dt, solids, bodies, reach, frame):
     """Half a kick and the whole move of body i; velocities become a prediction for the end of the step.
 
     frame (2,) [m/s]: where paths are measured. Returns a bound on the distance that any of its points moved in that frame [m].
     """
-    inverse_mass = solids.inverse_mass[i]
-    kick = 0.5 * dt * inverse_mass
-    force = load(bodies.force, i)
-    middle = along(load(bodies.velocity, i), kick, force)
-    store(bodies.middle_velocity, i, middle)
-    store(bodies.velocity, i, along(middle, kick, force))
-    store(bodies.position, i, along(load(bodies.position, i), dt, middle))
-
-    torque = load(bodies.torque, i)
-    momentum = along(load(bodies.angular_momentum, i), 0.5 * dt, torque)
-    store(bodies.middle_angular_momentum, i, momentum)
     q = bodies.orientation
     R = rotation_matrix(q[i, 0], q[i, 1], q[i, 2], q[i, 3])
-    own = to_body(R, momentum)
-    # spin in the middle of the step, from Euler's equation in the body frame
-    own = along(own, 0.5 * dt, cross(own, _times(solids.inverse_inertia, i, own)))
-    spin = _times(solids.inverse_inertia, i, own)
+    middle, momentum, spin = _middle(i, dt, solids, bodies, R)
+    store(bodies.middle_velocity, i, middle)
+    store(bodies.velocity, i, along(middle, 0.5 * dt * solids.inverse_mass[i], load(bodies.force, i)))
+    store(bodies.position, i, along(load(bodies.position, i), dt, middle))
+
+    store(bodies.middle_angular_momentum, i, momentum)
     store(bodies.middle_angular_velocity, i, to_world(R, spin))
     w, x, y, z = turned((q[i, 0], q[i, 1], q[i, 2], q[i, 3]), spin, dt)
     q[i, 0], q[i, 1], q[i, 2], q[i, 3] = w, x, y, z
-    store(bodies.angular_velocity, i, spin_of(i, solids, q, along(momentum, 0.5 * dt, torque)))
-
-    # sums instead of lengths: no smaller, and without a square root
-    moved = abs(middle[0] - frame[0]) + abs(middle[1] - frame[1]) + abs(middle[2])
-    return dt * (moved + (abs(spin[0]) + abs(spin[1]) + abs(spin[2])) * reach)
+    store(bodies.angular_velocity, i, spin_of(i, solids, q, along(momentum, 0.5 * dt, load(bodies.torque, i))))
+    return _travel(dt, middle, spin, reach, frame)
 
 
 @item

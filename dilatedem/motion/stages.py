@@ -1,53 +1,23 @@
-"""The stages of a time step over all bodies or pairs, one thread or several.
+"""The stages of a time step over lists of bodies or pairs, one thread or several.
 
 A parallel loop's body is one call of an ordinary device function, and every item writes its own rows only: results do not depend
 on the number of threads. (Writes through a NamedTuple *inside* a prange would be lost without an error.)
 """
 
-from dilatedem.contact.collide import CONSISTENT, collide
-from dilatedem.contact.consistent.press import DEEPEST_SHARE
-from dilatedem.jit import by_team, device, item, prange, shared_loop
+from dilatedem.contact.collide import collide
+from dilatedem.contact.gather import sum_contacts
+from dilatedem.contact.turning import turn_shape
+from dilatedem.jit import by_team, device, prange, shared_loop
 from dilatedem.motion.integrate import complete_spin, drift, kick
-from dilatedem.state.clock import Status
+from dilatedem.motion.paces import LONGEST_MOVE
 from dilatedem.water.floating import submerge
 from dilatedem.water.loads import body_loads
 
-TOO_FAST, TOO_DEEP = int(Status.TOO_FAST), int(Status.TOO_DEEP)
-
-#: a body that moves farther than this share of the pair list's limit in one step has left the realm of the step size
-LONGEST_MOVE = 0.1
-#: overlap, in units of the smaller dilated radius of the two, past which the run stops: rounded edges mean nothing any more
-DEEPEST = 4.0
-
-
-@item
-def drift_bodies(dt, model, bodies, pairs, clock):
-    """Move all bodies; True, or False with the culprit in `clock` where one moves too far in a step."""
-    path, solids = bodies.path, model.solids
-    for i in range(model.floating):
-        if solids.inverse_mass[i] == 0.0:
-            path[i] += dt * (pairs.frame[0] ** 2 + pairs.frame[1] ** 2) ** 0.5
-            continue
-        moved = drift(i, dt, solids, bodies, model.shapes.reach[i], pairs.frame)
-        path[i] += moved
-        if not moved <= LONGEST_MOVE * pairs.limit[0]:  # also where it is no number
-            clock.status[0] = TOO_FAST
-            clock.culprit[0] = i
-            clock.culprit[1] = -1
-            clock.measure[0] = moved
-            return False
-    for i in range(model.floating, len(path)):
-        path[i] += dt * (pairs.frame[0] ** 2 + pairs.frame[1] ** 2) ** 0.5
-    return True
-
 
 @device
-def complete_spins(model, bodies):
-    """Angular velocities of all free bodies at this instant."""
-    solids = model.solids
-    for i in range(model.floating):
-        if solids.inverse_mass[i] > 0.0:
-            complete_spin(i, solids, bodies)
+def part(count, block, blocks):
+    """First and last-but-one entry of one of `blocks` equal parts of a list."""
+    return count * block // blocks, count * (block + 1) // blocks
 
 
 @device
@@ -59,9 +29,112 @@ def longest_path(bodies):
 
 
 @device
+def complete_spins(model, bodies):
+    """Angular velocities of all free bodies at this instant."""
+    solids = model.solids
+    for i in range(model.floating):
+        if solids.inverse_mass[i] > 0.0:
+            complete_spin(i, solids, bodies)
+
+
+# --- move --------------------------------------------------------------------------------------------------------------------
+
+
+@device
+def _drift_block(block, blocks, chosen, count, dt, reach, solids, bodies, pairs, workspace):
+    path, horizon = bodies.path, workspace.horizon
+    adrift = dt * (pairs.frame[0] ** 2 + pairs.frame[1] ** 2) ** 0.5
+    longest = LONGEST_MOVE * pairs.limit[0]
+    fault, leap, surprise = -1, 0.0, False
+    first, last = part(count, block, blocks)
+    for w in range(first, last):
+        i = chosen[w]
+        moved = adrift
+        if solids.inverse_mass[i] > 0.0:
+            moved = drift(i, dt, solids, bodies, reach[i], pairs.frame)
+            if not moved <= longest and fault < 0:  # also where it is no number
+                fault, leap = i, moved
+        path[i] += moved
+        surprise = surprise or path[i] > horizon[i]
+    workspace.fault[block], workspace.leap[block], workspace.surprise[block] = fault, leap, surprise
+
+
+@device
+def _drift_alone(team, chosen, count, dt, reach, solids, bodies, pairs, workspace):
+    _drift_block(0, 1, chosen, count, dt, reach, solids, bodies, pairs, workspace)
+
+
+@shared_loop
+def _drift_shared(team, chosen, count, dt, reach, solids, bodies, pairs, workspace):
+    blocks = team.threads
+    for block in prange(blocks):
+        _drift_block(block, blocks, chosen, count, dt, reach, solids, bodies, pairs, workspace)
+
+
+_drift_all = by_team(_drift_alone, _drift_shared)
+
+
+@device
+def drift_bodies(team, chosen, count, dt, model, bodies, pairs, workspace, clock):
+    """Move the first `count` of the bodies in `chosen`; True, or False with the culprit in `clock` where one moves too far."""
+    # unpacked here: a parallel loop takes NamedTuples only as arguments, and none inside another
+    _drift_all(team, chosen, count, dt, model.shapes.reach, model.solids, bodies, pairs, workspace)
+    for block in range(len(workspace.fault)):
+        i = workspace.fault[block]
+        if i >= 0:
+            clock.culprit[0], clock.culprit[1] = i, -1
+            clock.measure[0] = workspace.leap[block]
+            return False
+    return True
+
+
+@device
+def surprised(workspace):
+    """Whether some body has got farther than it was taken to: others may meet it now that nobody looks at."""
+    for block in range(len(workspace.surprise)):
+        if workspace.surprise[block]:
+            return True
+    return False
+
+
+# --- meet --------------------------------------------------------------------------------------------------------------------
+
+
+@device
+def _turn_block(block, blocks, step, count, shapes, orientation, workspace):
+    first, last = part(count, block, blocks)
+    for w in range(first, last):
+        i = workspace.busy[w]
+        if workspace.asked[i] == step:
+            turn_shape(i, shapes, orientation, workspace.vertex, workspace.face_normal)
+
+
+@device
+def _turn_alone(team, step, count, shapes, orientation, workspace):
+    _turn_block(0, 1, step, count, shapes, orientation, workspace)
+
+
+@shared_loop
+def _turn_shared(team, step, count, shapes, orientation, workspace):
+    blocks = team.threads
+    for block in prange(blocks):
+        _turn_block(block, blocks, step, count, shapes, orientation, workspace)
+
+
+_turn_all = by_team(_turn_alone, _turn_shared)
+
+
+@device
+def turn_shapes(team, step, count, model, bodies, workspace):
+    """Turn the shapes of those busy bodies, `count` in all, that an awake pair asks for at this step."""
+    _turn_all(team, step, count, model.shapes, bodies.orientation, workspace)
+
+
+@device
 def _collide_block(block, blocks, count, dt, shapes, solids, contact, surroundings, bodies, pairs, workspace):
     """Evaluate one of `blocks` equal parts of the awake pairs, in a clipping workspace of its own."""
-    for w in range(count * block // blocks, count * (block + 1) // blocks):
+    first, last = part(count, block, blocks)
+    for w in range(first, last):
         collide(
             workspace.awake[w], dt, shapes, workspace.vertex, workspace.face_normal, solids, bodies, pairs, contact, surroundings,
             workspace.clip[block],
@@ -86,17 +159,27 @@ _collide_all = by_team(_collide_alone, _collide_shared)
 @device
 def collide_pairs(team, count, dt, model, bodies, pairs, workspace):
     """Evaluate the awake pairs, `count` of them."""
-    # unpacked here: a parallel loop takes NamedTuples only as arguments, and none inside another
     _collide_all(team, count, dt, model.shapes, model.solids, model.contact, model.surroundings, bodies, pairs, workspace)
 
 
+# --- float -------------------------------------------------------------------------------------------------------------------
+
+
 @device
-def _load_and_kick_block(block, blocks, floating, dt, hulls, solids, surroundings, bodies, workspace):
+def _load_and_kick_block(
+    block, blocks, chosen, count, awake, dt, floating, hulls, solids, surroundings, bodies, pairs, workspace
+):
     """All loads on one of `blocks` equal parts of the bodies, and the second half of their kick; dt = 0: the loads alone."""
-    first, last = floating * block // blocks, floating * (block + 1) // blocks
+    first, last = part(count, block, blocks)
+    if first == last:
+        return
+    sum_contacts(chosen, first, last, awake, bodies, pairs, workspace)
+    while last > first and chosen[last - 1] >= floating:  # structures feel no water and never move
+        last -= 1
     if surroundings.water:
-        submerge(first, last, hulls, bodies, workspace, block)
-    for i in range(first, last):
+        submerge(chosen, first, last, hulls, bodies, workspace, block)
+    for w in range(first, last):
+        i = chosen[w]
         force, torque, power = body_loads(i, hulls, solids, surroundings, bodies, workspace.wet)
         for m in range(3):
             bodies.force[i, m] = force[m] + bodies.contact_force[i, m]
@@ -108,39 +191,25 @@ def _load_and_kick_block(block, blocks, floating, dt, hulls, solids, surrounding
 
 
 @device
-def _load_and_kick_alone(team, floating, dt, hulls, solids, surroundings, bodies, workspace):
-    _load_and_kick_block(0, 1, floating, dt, hulls, solids, surroundings, bodies, workspace)
+def _load_and_kick_alone(team, chosen, count, awake, dt, floating, hulls, solids, surroundings, bodies, pairs, workspace):
+    _load_and_kick_block(0, 1, chosen, count, awake, dt, floating, hulls, solids, surroundings, bodies, pairs, workspace)
 
 
 @shared_loop
-def _load_and_kick_shared(team, floating, dt, hulls, solids, surroundings, bodies, workspace):
+def _load_and_kick_shared(team, chosen, count, awake, dt, floating, hulls, solids, surroundings, bodies, pairs, workspace):
     blocks = team.threads
     for block in prange(blocks):
-        _load_and_kick_block(block, blocks, floating, dt, hulls, solids, surroundings, bodies, workspace)
+        _load_and_kick_block(
+            block, blocks, chosen, count, awake, dt, floating, hulls, solids, surroundings, bodies, pairs, workspace
+        )
 
 
 _load_and_kick_all = by_team(_load_and_kick_alone, _load_and_kick_shared)
 
 
 @device
-def load_and_kick(team, dt, model, bodies, workspace):
-    """All loads on all bodies and the end of their kick."""
-    _load_and_kick_all(team, model.floating, dt, model.hulls, model.solids, model.surroundings, bodies, workspace)
-
-
-@device
-def too_deep(count, shapes, contact, pairs, workspace, clock):
-    """Whether some overlap is past what the method can mean; status and culprits go to `clock`."""
-    for w in range(count):
-        k = workspace.awake[w]
-        a, b = pairs.a[k], pairs.b[k]
-        radius = shapes.radius[a] if shapes.kind[b] != 0 else min(shapes.radius[a], shapes.radius[b])
-        limit = DEEPEST * radius
-        if contact.model == CONSISTENT:
-            limit = min(limit, DEEPEST_SHARE * (shapes.radius[a] + shapes.radius[b]))
-        if pairs.overlap[k] > limit:
-            clock.status[0] = TOO_DEEP
-            clock.culprit[0], clock.culprit[1] = a, b
-            clock.measure[0] = pairs.overlap[k]
-            return True
-    return False
+def load_and_kick(team, chosen, count, awake, dt, model, bodies, pairs, workspace):
+    """All loads on the first `count` bodies in `chosen`, contacts being among the `awake` pairs, and the end of their kick."""
+    _load_and_kick_all(
+        team, chosen, count, awake, dt, model.floating, model.hulls, model.solids, model.surroundings, bodies, pairs, workspace
+    )

@@ -1,40 +1,46 @@
 """The time step: the whole method on one page."""
 
-from dilatedem.contact.gather import gather_contacts, record_loads
+from dilatedem.contact.gather import record_contacts, record_loads
 from dilatedem.contact.neighbours import awake_pairs, find_pairs
-from dilatedem.contact.turning import turn_awake
 from dilatedem.jit import kernel
-from dilatedem.motion.stages import collide_pairs, complete_spins, drift_bodies, load_and_kick, longest_path, too_deep
+from dilatedem.motion.paces import foresee
+from dilatedem.motion.stages import collide_pairs, complete_spins, drift_bodies, load_and_kick, longest_path, surprised, turn_shapes
 from dilatedem.state.clock import Status
 
-DONE, PAIRS_FULL = int(Status.DONE), int(Status.PAIRS_FULL)
+DONE, PAIRS_FULL, TOO_FAST, TOO_DEEP = int(Status.DONE), int(Status.PAIRS_FULL), int(Status.TOO_FAST), int(Status.TOO_DEEP)
 
 
 @kernel
-def advance(team, model, bodies, pairs, spare, cells, workspace, ledger, loads, clock, dt, steps):
+def advance(team, model, bodies, pairs, spare, cells, workspace, ledger, loads, clock, dt, span, steps):
     """Advance all bodies by up to `steps` steps of dt [s]; returns a `Status`, its culprit in `clock`.
 
     team: `jit.Alone` or `jit.Team`. The method of Liu, Long & Ji (2015): move, meet, float. Bodies hold positions, velocities and
     loads of one instant, before and after; a step of dt = 0 moves nothing and only evaluates the loads, as a run needs at its
-    start.
+    start. span: bodies that nothing can touch take up to so many steps in one; 1 for the plain scheme.
     """
-    status = DONE
-    for _ in range(steps):
+    status, goal = DONE, clock.step[0] + steps
+    while status == DONE and clock.step[0] < goal:
         if longest_path(bodies) >= pairs.limit[0] and not find_pairs(model, bodies, pairs, spare, cells, clock):
-            status = PAIRS_FULL
-            break
-        if not drift_bodies(dt, model, bodies, pairs, clock):
-            status = clock.status[0]
-            break
-        clock.step[0] += 1
-        awake = awake_pairs(bodies, pairs, workspace.awake)
-        turn_awake(clock.step[0], awake, model.shapes, bodies, pairs, workspace)
-        collide_pairs(team, awake, dt, model, bodies, pairs, workspace)
-        gather_contacts(workspace.awake, awake, dt, model.floating, bodies, pairs, ledger, loads, clock)
-        load_and_kick(team, dt, model, bodies, workspace)
-        record_loads(loads)
-        if too_deep(awake, model.shapes, model.contact, pairs, workspace, clock):
-            status = clock.status[0]
-            break
+            return PAIRS_FULL
+        start = clock.step[0]
+        ahead, near, busy, idle = foresee(dt, min(span - start % span, goal - start), model, bodies, pairs, workspace)
+        while clock.step[0] < start + ahead:
+            if not drift_bodies(team, workspace.busy, busy, dt, model, bodies, pairs, workspace, clock):
+                status = TOO_FAST
+                break
+            clock.step[0] += 1
+            awake = awake_pairs(clock.step[0], near, bodies, pairs, workspace)
+            turn_shapes(team, clock.step[0], busy, model, bodies, workspace)
+            collide_pairs(team, awake, dt, model, bodies, pairs, workspace)
+            load_and_kick(team, workspace.busy, busy, awake, dt, model, bodies, pairs, workspace)
+            deep = record_contacts(awake, dt, model, bodies, pairs, workspace, ledger, loads, clock)
+            record_loads(loads)
+            if deep or surprised(workspace):
+                status = TOO_DEEP if deep else DONE
+                break
+        spent = (clock.step[0] - start) * dt
+        if not drift_bodies(team, workspace.idle, idle, spent, model, bodies, pairs, workspace, clock):
+            status = TOO_FAST
+        load_and_kick(team, workspace.idle, idle, 0, spent, model, bodies, pairs, workspace)
     complete_spins(model, bodies)
     return status

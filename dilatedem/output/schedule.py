@@ -13,13 +13,15 @@ class Schedule:
 
     interval_s  [s], 0 = never
     dt          time step [s]
+    span        only every so many steps can something be due: when all bodies stand at the same instant (`motion.paces`)
 
     The due step is a pure function of k (no sum of time steps), hence the same before and after a restart.
-    Where the interval is shorter than a step, every step is due, once.
+    Where the interval is shorter than a span, every span's end is due, once.
     """
 
     interval_s: float
     dt: float
+    span: int = 1
 
     def __post_init__(self):
         if not (self.interval_s >= 0.0 and math.isfinite(self.interval_s)):
@@ -32,13 +34,14 @@ class Schedule:
         if self.interval_s == 0.0:
             return NEVER
         steps = event * self.interval_s / self.dt
-        return math.ceil(steps - ROUND_OFF * max(1.0, steps))
+        first = math.ceil(steps - ROUND_OFF * max(1.0, steps))
+        return -(-first // self.span) * self.span
 
     def events_until(self, step: int) -> int:
         """Number of events due at steps 0 .. `step`, both included; the next event has that number."""
         if self.interval_s == 0.0 or step < 0:
             return 0
-        event = max(0, math.floor(step * self.dt / self.interval_s) - 1)  # at or just below the answer
+        event = max(0, math.floor((step - self.span) * self.dt / self.interval_s) - 1)  # at or just below the answer
         while self.due_step(event) <= step:
             event += 1
         while event > 0 and self.due_step(event - 1) > step:

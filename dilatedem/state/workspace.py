@@ -20,8 +20,17 @@ class Cells(NamedTuple):
 class Workspace(NamedTuple):
     vertex: np.ndarray  # (v, 3) core vertices in world directions, from their body's centroid
     face_normal: np.ndarray  # (f, 3) in world directions
-    turned: np.ndarray  # (n,) step at which a body's shape was turned last
+    near: np.ndarray  # (m,) pairs that may touch before all bodies stand at one instant again
     awake: np.ndarray  # (m,) pairs to evaluate in this step
+    busy: np.ndarray  # (n,) bodies of near pairs, in order
+    idle: np.ndarray  # (n,) all others, in order
+    is_busy: np.ndarray  # (n,)
+    room: np.ndarray  # (n,) m, how far a body is taken to get at most
+    horizon: np.ndarray  # (n,) m, path at which a body has got farther than it was taken to
+    asked: np.ndarray  # (n,) step at which a body's shape was looked at last
+    fault: np.ndarray  # (threads,) body that moves too fast, -1 = none
+    leap: np.ndarray  # (threads,) m, how far it moved
+    surprise: np.ndarray  # (threads,) whether some body has passed its horizon
     clip: np.ndarray  # (threads, 6, MOST_CORNERS, 3) polygons being clipped, faces that look at each other
     wet: np.ndarray  # (floating, 5) submerged volume, centre of buoyancy (body frame), wetted area
     hull: np.ndarray  # (threads, h, 4) outer vertices of one body, and their heights
@@ -34,12 +43,21 @@ def make_cells(floating: int) -> Cells:
 
 def make_workspace(shapes, hulls, capacity: int, threads: int) -> Workspace:
     """Workspace for packed shapes and hulls, a list of `capacity` pairs and a number of threads."""
-    most = int(np.diff(hulls.vertex_start).max(initial=1))
+    most, bodies = int(np.diff(hulls.vertex_start).max(initial=1)), len(shapes.radius)
     return Workspace(
         vertex=shapes.vertex.copy(),
         face_normal=shapes.face_normal.copy(),
-        turned=np.full(len(shapes.radius), -1, np.int64),
+        near=np.zeros(capacity, np.int64),
         awake=np.zeros(capacity, np.int64),
+        busy=np.zeros(bodies, np.int64),
+        idle=np.zeros(bodies, np.int64),
+        is_busy=np.zeros(bodies, np.bool_),
+        room=np.zeros(bodies),
+        horizon=np.zeros(bodies),
+        asked=np.full(bodies, -1, np.int64),
+        fault=np.full(threads, -1, np.int64),
+        leap=np.zeros(threads),
+        surprise=np.zeros(threads, np.bool_),
         clip=np.zeros((threads, 6, MOST_CORNERS, 3)),
         wet=np.zeros((len(hulls.prism), 5)),
         hull=np.zeros((threads, most, 4)),

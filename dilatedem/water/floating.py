@@ -96,23 +96,24 @@ def submerged_polyhedron(z, nx, ny, nz, hulls, body, works, thread):
 
 
 @device
-def submerge(first, last, hulls, bodies, workspace, thread):
-    """Submerged volume, centre of buoyancy (body frame) and wetted area of bodies first..last-1, to their rows of `workspace.wet`.
+def submerge(chosen, first, last, hulls, bodies, workspace, thread):
+    """Submerged volume, centre of buoyancy (body frame), wetted area of the bodies chosen[first:last], to rows of `workspace.wet`.
 
     Two passes, the closed form and then what it leaves (volume -1); arrays are named once, outside the loops: a reference counted
     per floe costs more than the closed form.
     """
     q, wet, position = bodies.orientation, workspace.wet, bodies.position
     prism, plan, height = hulls.prism, hulls.plan, hulls.height
-    for i in range(first, last):
+    for w in range(first, last):
+        i = chosen[w]
         up = rotation_matrix(q[i, 0], q[i, 1], q[i, 2], q[i, 3])[2]
         valid, volume, cx, cy, cz, wetted = submerged_prism(position[i, 2], up[0], up[1], up[2], plan, height, i)
         if not (valid and prism[i]):
             volume = -1.0
         wet[i, 0], wet[i, 1], wet[i, 2], wet[i, 3], wet[i, 4] = volume, cx, cy, cz, wetted
-    for i in range(first, last):
-        if wet[i, 0] < 0.0:
-            submerge_tilted(i, hulls, bodies, workspace, thread)
+    for w in range(first, last):
+        if wet[chosen[w], 0] < 0.0:
+            submerge_tilted(chosen[w], hulls, bodies, workspace, thread)
 
 
 @device

@@ -11,9 +11,10 @@ from dilatedem import simulation
 from dilatedem.case.load import load
 from dilatedem.case.schema import Case
 from dilatedem.errors import CaseError, Interrupted, SimulationStopped
-from dilatedem.simulation import Simulation, check, time_step, total_steps
+from dilatedem.simulation import Simulation, check
 from dilatedem.state.clock import Status
 from dilatedem.state.pairs import empty_pairs
+from dilatedem.steps import free_span, time_step, total_steps
 
 CASES = Path(__file__).parents[1] / "cases"
 CROWDED = CASES / "crowded.toml"
@@ -28,7 +29,22 @@ def test_the_automatic_step_divides_the_force_window():
     dt = time_step(case, 3.3e-4)
     assert dt <= 3.3e-5 and 0.01 / dt == pytest.approx(round(0.01 / dt), abs=1e-9)
     assert dt > 0.99 * 3.3e-5
-    assert time_step(case_of(time={"step_fraction": 0.5}), 3.3e-4) == pytest.approx(1.65e-4, rel=0.02)
+    half = time_step(case_of(time={"step_fraction": 0.5}), 3.3e-4)
+    assert half <= 1.65e-4 and round(0.01 / half) == 64  # 61, made a whole number of spans of idle bodies
+
+
+def test_everything_is_written_on_time_where_one_step_divides_all_intervals():
+    output = {"force_interval": 0.05, "track": [0], "track_interval": 0.03, "snapshot_interval": 0.0}
+    case = case_of(output=output)
+    dt = time_step(case, 3.3e-4)
+    assert 0.01 / dt == pytest.approx(round(0.01 / dt), abs=1e-9) and round(0.01 / dt) % free_span(case, dt) == 0
+
+
+def test_idle_bodies_step_together_with_every_output():
+    assert free_span(case_of(), 0.01 / 992) == 16
+    assert free_span(case_of(), 1e-4) == 4  # 100 steps a window; 10 of them would last 1 ms
+    assert free_span(case_of(), 0.01 / 99) == 1
+    assert free_span(case_of(), 3e-3) == 1
 
 
 def test_the_automatic_step_is_no_longer_than_a_window_or_the_run():
@@ -74,9 +90,11 @@ def test_the_list_of_pairs_grows_where_it_is_too_short():
 def test_loads_do_not_depend_on_how_steps_are_grouped():
     whole, parts = (Simulation.of_case(load(CROWDED)) for _ in range(2))
     whole.evaluate(), parts.evaluate()
-    whole.advance(1001)
-    for steps in (1, 300, 700):
-        parts.advance(steps)
+    span = whole.span
+    assert span > 1  # bodies that nothing can touch stand at the instant of all others only then
+    whole.advance(100 * span)
+    for spans in (1, 30, 69):
+        parts.advance(spans * span)
     for name, values in whole.state.bodies._asdict().items():
         np.testing.assert_array_equal(getattr(parts.state.bodies, name), values, err_msg=name)
 

@@ -1,0 +1,82 @@
+"""Two paces: floes that may touch take short steps, all others one long step beside them.
+
+Contacts last milliseconds, the water's loads change over a tenth of a second, and at most times most floes touch nothing. So the
+steps of a run come in spans. At the start of a span all bodies stand at the same instant; each is given room for twice the way
+that its present loads let it go, and two bodies that could meet within their rooms are *busy*. Busy bodies take the short
+steps of the contacts, *idle* ones the whole span in one step of the same scheme, which the water allows a thousand of. Nothing can
+be missed: a busy body that is about to leave its room (something hit it) ends the span early.
+"""
+
+from dilatedem.jit import device
+from dilatedem.motion.integrate import travel
+
+#: a body that moves farther than this share of the pair list's limit in one step has left the realm of the step size
+LONGEST_MOVE = 0.1
+#: the room of a body, in units of the way it will go if its loads stay as they are; effect: how many bodies are busy for nothing
+ROOM = 2.0
+#: what every room has besides, as a share of the pair list's limit: room to be hit from rest
+SPARE_ROOM = 0.005
+#: share of a body's room that it may use up before the span ends; the rest is for one more short step
+HORIZON = 0.75
+
+
+@device
+def foresee(dt, span, model, bodies, pairs, workspace):
+    """Who can meet whom within the next `span` steps of dt [s], fewer where some body is too fast for so many.
+
+    Returns the number of steps, and how many entries `workspace.near`, `.busy` and `.idle` have: pairs that may touch, their
+    bodies, and all others.
+    """
+    limit = LONGEST_MOVE * pairs.limit[0]
+    while not _give_room(span * dt, model, bodies, pairs, workspace) <= limit and span > 1:
+        span //= 2
+    near = _near_pairs(bodies, pairs, workspace)
+    busy, idle = _by_pace(bodies, workspace)
+    return span, near, busy, idle
+
+
+@device
+def _give_room(time, model, bodies, pairs, workspace):
+    """Room for all bodies over a time [s]; returns the longest way that one of them would go [m]."""
+    solids, path, room, horizon = model.solids, bodies.path, workspace.room, workspace.horizon
+    adrift = time * (pairs.frame[0] ** 2 + pairs.frame[1] ** 2) ** 0.5  # of what stands still, in the frame of the ice
+    spare = SPARE_ROOM * pairs.limit[0]
+    longest = 0.0
+    for i in range(len(path)):
+        way = adrift
+        if solids.inverse_mass[i] > 0.0:
+            way = travel(i, time, solids, bodies, model.shapes.reach[i], pairs.frame)
+            longest = way if not way <= longest else longest  # also where it is no number
+        room[i] = ROOM * way + spare
+        horizon[i] = path[i] + HORIZON * room[i]
+    return longest
+
+
+@device
+def _near_pairs(bodies, pairs, workspace):
+    """Pairs whose gap both rooms together could close, to `workspace.near`; their bodies are marked. Returns how many."""
+    path, room, near, is_busy = bodies.path, workspace.room, workspace.near, workspace.is_busy
+    for i in range(len(path)):
+        is_busy[i] = False
+    found = 0
+    for k in range(pairs.count[0]):
+        a, b = pairs.a[k], pairs.b[k]
+        if path[a] + path[b] + (room[a] + room[b]) >= pairs.wake[k]:
+            near[found] = k
+            found += 1
+            is_busy[a] = is_busy[b] = True
+    return found
+
+
+@device
+def _by_pace(bodies, workspace):
+    """Numbers of the busy and of the idle bodies, in order; returns how many of each."""
+    busy = idle = 0
+    for i in range(len(bodies.path)):
+        if workspace.is_busy[i]:
+            workspace.busy[busy] = i
+            busy += 1
+        else:
+            workspace.idle[idle] = i
+            idle += 1
+    return busy, idle

@@ -1,0 +1,81 @@
+"""How long the steps of a run are: that of the contacts, and how many of them idle bodies take in one."""
+
+import math
+from fractions import Fraction
+
+from dilatedem.case.schema import Case
+from dilatedem.errors import CaseError
+
+#: s that a step of a body which nothing can touch may last: a thousandth of the time in which the water's loads change
+LONGEST_SPAN = 1e-3
+#: most steps in such a step; more would save next to nothing
+MOST_SPAN = 16
+#: steps in the time that all outputs have in common, at least, for the step to divide it; else it divides the force window alone
+SHORTEST_WINDOW = 16
+
+
+def time_step(case: Case, critical: float) -> float:
+    """The step [s]: the case's own, or a share of the critical one that divides the force window, and all output where it can.
+
+    Raises CaseError for a step above the critical one.
+    """
+    if case.time.step != "auto":
+        if case.time.step > critical:
+            raise CaseError(
+                f"time.step = {case.time.step:g}: must be at most the critical step of the stiffest contact, {critical:.3g} s; "
+                f'set time.step = "auto" for {case.time.step_fraction:g} of it'
+            )
+        return case.time.step
+    output = case.output
+    window, longest = output.force_interval, min(case.time.step_fraction * critical, output.force_interval, case.time.duration)
+    common = _common_part(_intervals(case))
+    if common >= SHORTEST_WINDOW * longest:
+        window = common
+    steps, span = math.ceil(window / longest - 1e-9), longest_span(longest)
+    while span > max(steps // 4, 1):  # a short window is not worth a shorter step
+        span //= 2
+    return window / (-(-steps // span) * span)
+
+
+def _intervals(case: Case) -> list[float]:
+    """Intervals [s] at which something is written."""
+    output = case.output
+    intervals = [output.force_interval, output.energy_interval, output.snapshot_interval, output.checkpoint_interval]
+    return [interval for interval in intervals + [output.track_interval] * bool(output.track) if interval > 0.0]
+
+
+def _common_part(intervals: list[float]) -> float:
+    """The longest time [s] of which all intervals are multiples, taken as the decimal numbers they were written as."""
+    exact = [Fraction(repr(interval)) for interval in intervals]
+    scale = math.lcm(*(interval.denominator for interval in exact))
+    return float(Fraction(math.gcd(*(int(interval * scale) for interval in exact)), scale))
+
+
+def longest_span(dt: float) -> int:
+    """The highest power of two of steps of dt [s] that idle bodies may take in one."""
+    span = 1
+    while 2 * span <= MOST_SPAN and 2 * span * dt <= LONGEST_SPAN:
+        span *= 2
+    return span
+
+
+def free_span(case: Case, dt: float) -> int:
+    """Steps that bodies which nothing can touch take in one: a power of two that divides all intervals of output.
+
+    An interval that is no whole number of steps is rounded up to spans (`Schedule`); the span is at most a sixteenth of it.
+    """
+    span = longest_span(dt)
+    for interval in _intervals(case):
+        steps = interval / dt
+        whole = round(steps)
+        if abs(steps - whole) <= 1e-9 * steps:
+            while whole % span:
+                span //= 2
+        else:
+            while span > 1 and 16 * span > steps:
+                span //= 2
+    return span
+
+
+def total_steps(case: Case, dt: float) -> int:
+    return math.ceil(case.time.duration / dt - 1e-9)
