@@ -66,10 +66,7 @@ class Replay:
                     now[...] = then
             else:
                 setattr(state, name, _copied(group))
-        if len(state.pairs.a) == len(self.simulation.workspace.awake):
-            self.simulation.workspace.turned[:] = -1  # of steps that are to come again
-        else:
-            self.simulation._make_room()
+        self.simulation._make_room()  # a workspace may remember steps that are to come again
         self._run(1)
 
     def seconds(self) -> float:
@@ -111,6 +108,7 @@ def measured(scene: str, model: str, size: int, threads: int, repeats: int, tile
     replay = Replay(simulation, steps)
     row = {
         "scene": scene, "model": model, "size": size, "floes": floes, "threads": threads, "steps": steps, "dt_s": simulation.dt,
+        "span": simulation.span,
     }  # fmt: skip
     large = floes >= LARGE
     times = [replay.seconds() / steps for _ in range(min(repeats, 3) if large else repeats)]

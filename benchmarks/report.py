@@ -22,7 +22,8 @@ python -m benchmarks --all     # also start, files, memory, generation, and the 
 Three fixed scenes of 200 floes (`scenes/`), water, friction, contact history, ledger and load record on, open boundaries:
 *drift*, 196 floes at 63 % concentration in a current of 0.3 m/s past a pile; *jam*, the same ice shoved up to the pile; *packed*,
 195 floes at 97 %, at rest, nearly all face on face. Each settles for 0.2 s. Larger sizes are copies of the settled scene side by
-side, each with its pile, so that the work per floe stays what it is. The step is 1e-4 s everywhere.
+side, each with its pile, so that the work per floe stays what it is. The step is 1e-4 s everywhere;
+floes that nothing can touch take several of them in one, as in any run.
 
 A figure is the best of several repeats (the median in brackets) of one stretch of steps, run again and again from the same state
 for at least 0.3 s. The time of a step comes from the program's own loop; times by stage from a copy of that loop which looks at
@@ -121,9 +122,10 @@ def _by_stage(rows: list[dict]) -> str:
             ])  # fmt: skip
     words = (
         "One thread; the step as measured by the program's own loop, then its stages, µs a step. *search*: has a body moved so far "
-        "that the list of pairs must be made anew, and that; *drift*: half a kick and the move; *wake*: which pairs may touch; "
-        "*turn*: their shapes; *collide*: distance, patch, forces; *gather*: sums per body, ledger; *float*: buoyancy, drag, the "
-        "other half of the kick; *record*: loads on structures; *check*: is an overlap too deep."
+        "that the list of pairs must be made anew, and that; *foresee*: which bodies nothing can touch for some steps; *drift*: "
+        "half a kick and the move of the others; *wake*: which pairs may touch; *turn*: their shapes; *collide*: distance, patch, "
+        "forces; *float*: sums of contacts, buoyancy, drag, the other half of the kick; *record*: ledger, loads on structures, is "
+        "an overlap too deep; *idle*: the long step of bodies that nothing touched."
     )
     return "\n\n".join(["## Where the time goes", words, f"![cost of a floe-step by stage]({STAGE})", _table(header, lines)])
 

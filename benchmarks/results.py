@@ -9,7 +9,7 @@ WORDS = {
     "scene", "model", "name", "unit", "note", "date", "program", "processor", "system", "python", "numba", "numpy", "coal", "layer",
 }  # fmt: skip
 #: columns that hold whole numbers
-WHOLE = {"size", "floes", "threads", "steps", "contacts", "listed_pairs", "near_pairs", "coal_contacts", "cores"}
+WHOLE = {"size", "floes", "threads", "steps", "span", "contacts", "listed_pairs", "near_pairs", "coal_contacts", "cores"}
 
 
 def read(path: Path) -> list[dict]:

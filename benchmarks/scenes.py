@@ -6,6 +6,7 @@ packed  195 floes at 97 %, nearly all face on face, the 52 at the border held fa
 """
 
 import json
+from dataclasses import replace
 from math import sqrt
 from pathlib import Path
 
@@ -103,7 +104,7 @@ def tiled(tile: Simulation, along_x: int, along_y: int, *, threads: int = 1) -> 
     loads = empty_loads(origin, np.tile(tile.state.loads.map_span, (copies, 1)))
     pairs = empty_pairs(PAIRS_PER_BODY * len(bodies.path) + 64)
     state = State(bodies, pairs, empty_ledger(), loads, clock_at_start(), type(tile.state.totals)())
-    return Simulation(tile.case, tile.scene, model, state, tile.dt, tile.critical, threads)
+    return replace(tile, model=model, state=state, threads=threads)
 
 
 def settled(name: str, model: str) -> Simulation:

@@ -12,7 +12,7 @@ from benchmarks.timed_step import STAGES
 
 def row(**known) -> dict:
     one = {
-        "scene": "packed", "model": "liu2015", "size": 200, "floes": 195, "threads": 1, "steps": 500, "dt_s": 1e-4,
+        "scene": "packed", "model": "liu2015", "size": 200, "floes": 195, "threads": 1, "steps": 500, "dt_s": 1e-4, "span": 10,
         "ms_per_step": 0.2, "ms_per_step_median": 0.25, "us_per_floe_step": 1.0, "particle_steps_per_s": 1e6, "contacts": 392,
         "listed_pairs": 1154, "awake_pairs": 392.5, "coal_ms": 0.5, "coal_called_ms": 0.9, "near_pairs": 515, "coal_contacts": 380,
         "date": "2026-11-22T12:00+00:00", "program": "0.1.0", "processor": "a processor", "cores": 2, "load": 0.5,

@@ -46,5 +46,5 @@ def test_the_timed_step_gives_the_numbers_of_the_step(name):
 
 def test_every_stage_has_a_reading_of_its_own():
     source = inspect.getsource(timed_step.timed_advance.py_func)
-    assert [source.count(f"spent, {stage.upper()},") for stage in STAGES] == [1] * len(STAGES)
+    assert [source.count(f"booked, {stage.upper()},") for stage in STAGES] == [1] * len(STAGES)
     assert 0.0 < clock_cost(1000) < 1e5
