@@ -283,6 +283,7 @@ def _load_checkpoint(out: Path, case: Case, simulation: Simulation) -> dict:
     state = simulation.state
     for name, current in state.groups().items():
         setattr(state, name, checkpoint.restore(type(current), groups[name], where=str(out / folder.CHECKPOINT)))
+    state.pairs = grown(state.pairs, len(state.pairs.a))
     state.totals = Totals(**meta["totals"])
     if state.watch:
         state.watch.restore(groups, meta["watch"], where=str(out / folder.CHECKPOINT))

@@ -45,8 +45,8 @@ def patch_of_pair(shapes, pairs, vertex, face_normal, k, offset, normal, pa, pb,
 def energy_of_pair(shapes, pairs, vertex, face_normal, k, offset, normal, pb, overlap, modulus, scratch):
     """`pose_energy` of pair k, its bodies turned and its corners known by `distance_of_pair`."""
     return pose_energy(
-        vertex, face_normal, shapes, pairs.a[k], pairs.b[k], pairs.corner_a[k, 0], pairs.corner_b[k, 0], offset, normal, pb,
-        overlap, modulus, scratch,
+        vertex, face_normal, shapes, pairs.a[k], pairs.b[k], pairs.corners[k], pairs.corner_a[k], pairs.corner_b[k], offset,
+        normal, pb, overlap, modulus, scratch,
     )  # fmt: skip
 
 
@@ -71,9 +71,9 @@ def workspace_of(cap_b, cap_a=()) -> np.ndarray:
 
 
 @kernel
-def face_towards(shapes, vertex, face_normal, body, corner, direction):
-    """`facing`."""
-    return facing(vertex, face_normal, shapes, body, corner, direction)
+def face_towards(shapes, vertex, face_normal, body, corners, direction):
+    """`facing`; corners (n,): the closest vertices."""
+    return facing(vertex, face_normal, shapes, body, len(corners), corners, direction)
 
 
 @kernel

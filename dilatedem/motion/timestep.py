@@ -8,7 +8,7 @@ from math import pi, sqrt
 
 import numpy as np
 
-from dilatedem.contact.consistent.line import OFFSET, SHORT
+from dilatedem.contact.consistent.line import line_compliance
 from dilatedem.contact.kinematics import mobility
 from dilatedem.contact.liu2015 import BETA
 from dilatedem.jit import kernel
@@ -95,8 +95,8 @@ def _line_stiffness(shapes, i: int, modulus: float, inverse_mass: float, speed: 
     stiffness = modulus * length
     for _ in range(4):
         overlap = speed / sqrt(inverse_mass * stiffness)
-        lam = OFFSET + np.log(length**2 / (shapes.radius[i] * overlap) + SHORT)
-        stiffness = pi * modulus * length / (lam + np.log(lam))
+        compliance, _ = line_compliance.py_func(length**2 / (shapes.radius[i] * overlap))
+        stiffness = pi * modulus * length / (compliance - 0.5)
     return stiffness
 
 

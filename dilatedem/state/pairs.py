@@ -53,19 +53,44 @@ class Pairs(NamedTuple):
 _WIDTH = {"corner_a": SIMPLEX, "corner_b": SIMPLEX, "normal": 3, "slip": 3, "force": 3, "couple": 3, "point": 3, "arm": 3}
 _WHOLE = {"count", "a", "b", "rounds", "corners", "corner_a", "corner_b", "mode"}
 _ALONE = {"count": (1,), "frame": (2,), "limit": (1,)}
+#: arrays of their own, read from end to end; all other fields of a pair lie side by side in one row of memory
+_SCANNED = ("a", "b", "wake")
+#: numbers in a line of the processor's cache
+_LINE = 8
 
 
 def empty_pairs(capacity: int) -> Pairs:
-    """Room for `capacity` pairs; limit 0 makes the first step build the list."""
+    """Room for `capacity` pairs; limit 0 makes the first step build the list.
+
+    The fields of a pair that only its contact needs are columns of one array: a contact touches the 6 cache lines of its row, not a
+    line in each of 40 arrays, most of which would be filled with what sleeping pairs do not need.
+    """
     arrays = {}
+    rows = [name for name in Pairs._fields if name not in _ALONE and name not in _SCANNED]
+    width = sum(_WIDTH.get(name, 1) for name in rows)
+    memory = _aligned(capacity, -(-width // _LINE) * _LINE)
+    column = 0
     for name in Pairs._fields:
-        shape = _ALONE.get(name) or ((capacity, _WIDTH[name]) if name in _WIDTH else (capacity,))
-        arrays[name] = np.zeros(shape, np.int64 if name in _WHOLE else np.float64)
+        kind = np.int64 if name in _WHOLE else np.float64
+        if name in rows:
+            last = column + _WIDTH.get(name, 1)
+            view = memory.view(kind)
+            arrays[name] = view[:, column:last] if name in _WIDTH else view[:, column]
+            column = last
+        else:
+            arrays[name] = np.zeros(_ALONE.get(name) or (capacity,), kind)
     return Pairs(**arrays)
 
 
+def _aligned(rows: int, columns: int) -> np.ndarray:
+    """Zeros (rows, columns) that begin where a cache line does."""
+    memory = np.zeros(rows * columns + _LINE)
+    start = -(memory.ctypes.data // memory.itemsize) % _LINE
+    return memory[start : start + rows * columns].reshape(rows, columns)
+
+
 def grown(pairs: Pairs, capacity: int) -> Pairs:
-    """The same pairs with room for more."""
+    """The same pairs with room for more, laid out as `empty_pairs` does."""
     larger = empty_pairs(capacity)
     for name in Pairs._fields:
         old = getattr(pairs, name)

@@ -22,35 +22,62 @@ UNBOUNDED = 0
 
 
 @item
-def facing(vertex, face_normal, shapes, body, corner, direction):
-    """The face of a core that lies flattest against a unit direction at its vertex `corner`; -1: the core has no face.
+def facing(vertex, face_normal, shapes, body, corners, corner, direction):
+    """The face of a core that lies flattest against a unit direction and holds what is closest; -1: the core has no face.
 
-    Flattest: the smallest product of the slopes of its two sides at that vertex, so that the flattest side is always part of it.
+    corner[:corners]: the vertices whose hull is closest (one may stand there twice). Of faces that are not flush: the smallest
+    product of the slopes of their two sides at those vertices, so that the flattest side is always part of the cap.
     """
     flush, chosen = FLUSH, -1
     for f in range(shapes.face_start[body], shapes.face_start[body + 1]):
         c = dot(load(face_normal, f), direction)
-        if c > flush:
+        if c > flush and _holds(shapes, f, corners, corner):
             flush, chosen = c, f
     if chosen >= 0:
-        for i in range(shapes.loop_start[chosen], shapes.loop_start[chosen + 1]):
-            if shapes.loop[i] == corner:
-                return chosen
-    best, chosen = 1e300, -1
-    origin = load(vertex, corner)
+        return chosen
+    least, most, behind = 1e300, -2.0, -1
     for f in range(shapes.face_start[body], shapes.face_start[body + 1]):
-        if dot(load(face_normal, f), direction) <= 0.0:
-            continue
-        first, last = shapes.loop_start[f], shapes.loop_start[f + 1]
-        for i in range(first, last):
-            if shapes.loop[i] == corner:
-                before = sub(load(vertex, shapes.loop[i - 1 if i > first else last - 1]), origin)
-                after = sub(load(vertex, shapes.loop[i + 1 if i + 1 < last else first]), origin)
-                steep = _slope(before, direction) * _slope(after, direction)
-                if steep < best:
-                    best, chosen = steep, f
-                break
-    return chosen
+        c = dot(load(face_normal, f), direction)
+        # exactly 0: a flat core that is met edge-on, whose two faces are equally good
+        if c >= 0.0 and _holds(shapes, f, corners, corner):
+            steep = _steepness(vertex, shapes, f, corners, corner, direction)
+            if steep < least:
+                least, chosen = steep, f
+        # where round-off leaves no face that holds them all: one that holds the first
+        if chosen < 0 and c > most and _holds(shapes, f, 1, corner):
+            most, behind = c, f
+    return chosen if chosen >= 0 else behind
+
+
+@device
+def _place(shapes, face, vertex):
+    """Where a vertex stands in a face's loop; -1: nowhere."""
+    for i in range(shapes.loop_start[face], shapes.loop_start[face + 1]):
+        if shapes.loop[i] == vertex:
+            return i
+    return -1
+
+
+@device
+def _holds(shapes, face, corners, corner):
+    for k in range(corners):
+        if _place(shapes, face, corner[k]) < 0:
+            return False
+    return True
+
+
+@device
+def _steepness(vertex, shapes, face, corners, corner, direction):
+    """Product of the slopes of a face's two sides at each of some vertices that it holds."""
+    first, last = shapes.loop_start[face], shapes.loop_start[face + 1]
+    steep = 1.0
+    for k in range(corners):
+        at = _place(shapes, face, corner[k])
+        origin = load(vertex, corner[k])
+        before = sub(load(vertex, shapes.loop[at - 1 if at > first else last - 1]), origin)
+        after = sub(load(vertex, shapes.loop[at + 1 if at + 1 < last else first]), origin)
+        steep *= _slope(before, direction) * _slope(after, direction)
+    return steep
 
 
 @device

@@ -16,8 +16,13 @@ BETA = 1.018
 #: distance, m, by which face b reaches beyond its own border in the clipping. Floes at one height have borders that coincide
 #: exactly; round-off would choose whose border cuts the patch, and with it the side to which its pressure pushes
 MARGIN = 1e-4
+#: minus the cosine between two sides of face b beyond which the border moved out is cut off at their corner: 60 degrees, where it
+#: reaches 2 MARGIN, as far as at any sharper one then
+SHARPEST = 0.5
 #: distance, m, within which a corner of the clipped patch is on the side that cut it
 ON = 1e-10
+#: sine of the angle of two sides of a patch, and length of one, m, below which nothing is divided by them
+NEEDLE = 1e-9
 #: cosine of the angle between the faces beyond which they do not press face on face
 STEEP = 0.1
 
@@ -84,36 +89,58 @@ def _fence(scratch, k, count, origin, t1, t2, normal):
     return a, b, a * dot(d, t1) + b * dot(d, t2) + MARGIN
 
 
+@device
+def _bevel(scratch, k, count, origin, t1, t2):
+    """Whether the corner at the end of side k of face b is sharp, and the fence across it, as `_fence` gives it."""
+    p, q = corner_of(scratch, 1, k), corner_of(scratch, 1, k + 1 if k + 1 < count else 0)
+    e, f = sub(q, p), sub(corner_of(scratch, 1, (k + 2) % count), q)
+    c = dot(e, f)
+    if c >= 0.0 or c * c <= SHARPEST * SHARPEST * dot(e, e) * dot(f, f):
+        return False, 0.0, 0.0, 0.0
+    out = sub(scale(1.0 / sqrt(dot(e, e)), e), scale(1.0 / sqrt(dot(f, f)), f))
+    unit = 1.0 / sqrt(dot(out, out))
+    a, b, d = unit * dot(out, t1), unit * dot(out, t2), sub(q, origin)
+    return True, a, b, a * dot(d, t1) + b * dot(d, t2) + MARGIN / sqrt(0.5 * (1.0 - SHARPEST))
+
+
+@device
+def _cut(scratch, now, count, a, b, limit):
+    """Clip the patch in buffer `now` by a u + b v <= limit; returns its corner count, its buffer, and whether that cut anything."""
+    for i in range(count):
+        if a * scratch[now, i, 0] + b * scratch[now, i, 1] > limit:
+            return clip_polygon(scratch[now], count, scratch[1 - now], a, b, 0.0, limit), 1 - now, True
+    return count, now, False
+
+
 @item
 def _patch(scratch, count_a, count_b, origin, t1, t2, normal, reach):
     """Clip face a by the sides of face b, then by where the overlap ends; returns the corner count, the buffer that holds it and
-    the sides of b that cut, as bits.
+    the sides of b that cut, as bits, and the sharp corners.
 
     Rows: u, v and the overlap.
     """
     for i in range(count_a):
         d = sub(corner_of(scratch, 0, count_a - 1 - i), origin)  # seen from b's side a's loop runs clockwise
         scratch[0, i, 0], scratch[0, i, 1], scratch[0, i, 2] = dot(d, t1), dot(d, t2), reach - dot(d, normal)
-    count, now, cut = count_a, 0, 0
+    count, now, cut, bevelled = count_a, 0, 0, 0
     for k in range(count_b):
         a, b, limit = _fence(scratch, k, count_b, origin, t1, t2, normal)
-        outside = False
-        for i in range(count):
-            if a * scratch[now, i, 0] + b * scratch[now, i, 1] > limit:
-                outside = True
-                break
+        count, now, outside = _cut(scratch, now, count, a, b, limit)
         if outside:
-            count = clip_polygon(scratch[now], count, scratch[1 - now], a, b, 0.0, limit)
-            now = 1 - now
             cut |= 1 << (k & 63)
-            if count < 3:
-                return 0, now, cut
+        sharp, a, b, limit = _bevel(scratch, k, count_b, origin, t1, t2)
+        if sharp:
+            count, now, outside = _cut(scratch, now, count, a, b, limit)
+            if outside:
+                bevelled |= 1 << (k & 63)
+        if count < 3:
+            return 0, now, cut, bevelled
     for i in range(count):
         if scratch[now, i, 2] < 0.0:
             count = clip_polygon(scratch[now], count, scratch[1 - now], 0.0, 0.0, -1.0, 0.0)
             now = 1 - now
             break
-    return count, now, cut
+    return count, now, cut, bevelled
 
 
 @device
@@ -141,22 +168,47 @@ def _resultant(pressure, m, d0, gu, gv):
 
 
 @device
-def _strongest_rim(polygon, count, beyond):
+def _strongest_rim(polygon, count, beyond, lift, overlap):
     """Bounds for any edge that presses where a patch has its rim: integral of the squared overlap along it [m3], its length [m].
 
-    Every edge of one face that lies over the other is a side of the patch; `beyond` [m]: as far as an edge can press past the
-    border of the other face, at either end.
+    Every edge of one face that lies over the other is a side of the patch, and one that runs past the other face by no more than
+    `beyond` [m] has a side of the patch beside it, whose overlap is smaller by up to `lift` [m], the tilt times that way. It
+    goes on past the side's ends until it is `beyond` past the border of the other face: the farther, the smaller its angle with
+    the side that it meets there. Its overlap goes on as along the side, but never above `overlap` [m].
     """
     most, longest = 0.0, 0.0
-    x, y, d = polygon[count - 1, 0], polygon[count - 1, 1], polygon[count - 1, 2]
+    x, y, d = polygon[count - 1, 0], polygon[count - 1, 1], min(polygon[count - 1, 2] + lift, overlap)
+    au, av = _direction(x - polygon[count - 2, 0], y - polygon[count - 2, 1])[:2]
+    bu, bv, length = _direction(polygon[0, 0] - x, polygon[0, 1] - y)
+    sine = abs(au * bv - av * bu)
     for i in range(count):
-        u, v, e = polygon[i, 0], polygon[i, 1], polygon[i, 2]
-        square = d * d + d * e + e * e
-        length = sqrt((u - x) ** 2 + (v - y) ** 2)
-        most = max(most, length * square / 3.0 + 2.0 * beyond * max(d, e) ** 2)
-        longest = max(longest, length)
-        x, y, d = u, v, e
-    return most, longest + 2.0 * beyond
+        e = min(polygon[i, 2] + lift, overlap)
+        j = i + 1 if i + 1 < count else 0
+        cu, cv, following = _direction(polygon[j, 0] - polygon[i, 0], polygon[j, 1] - polygon[i, 1])
+        sine_after = abs(bu * cv - bv * cu)
+        second, further = length * (d * d + d * e + e * e) / 3.0, 0.0
+        for end in range(2):
+            start, fall, sharp = (d, d - e, sine) if end == 0 else (e, e - d, sine_after)
+            way = beyond / max(sharp, NEEDLE)
+            if fall < 0.0:  # less and less, and then nothing
+                way = min(way, -start * length / fall)
+                deepest = start
+            else:
+                deepest = min(overlap, start + fall * way / max(length, NEEDLE))
+            second += way * deepest * deepest
+            further += way
+        most, longest = max(most, second), max(longest, length + further)
+        d, bu, bv, length, sine = e, cu, cv, following, sine_after
+    return most, longest
+
+
+@device
+def _direction(u, v):
+    """Unit vector and length; no direction for two corners in one place."""
+    length = sqrt(u * u + v * v)
+    if length == 0.0:
+        return 0.0, 0.0, 0.0
+    return u / length, v / length, length
 
 
 @item
@@ -172,7 +224,7 @@ def press_face(scratch, count_a, normal_a, count_b, normal_b, reach, overlap, mo
         return 0.0, none, none, 0.0, (0.0, 0.0), (none, none)
     t1, t2 = tangents(normal_b)
     origin = corner_of(scratch, 1, 0)
-    count, now, cut = _patch(scratch, count_a, count_b, origin, t1, t2, normal_b, reach)
+    count, now, cut, bevelled = _patch(scratch, count_a, count_b, origin, t1, t2, normal_b, reach)
     if count < 3:
         return 0.0, none, none, 0.0, (0.0, 0.0), (none, none)
     polygon = scratch[now]
@@ -185,7 +237,8 @@ def press_face(scratch, count_a, normal_a, count_b, normal_b, reach, overlap, mo
         return 0.0, none, none, 0.0, (0.0, 0.0), (none, none)
     d0 += gu * du + gv * dv
     u0, v0 = polygon[0, 0] + du, polygon[0, 1] + dv
-    rims = _strongest_rim(polygon, count, sqrt(2.0 * reach * overlap))
+    beyond = sqrt(2.0 * reach * overlap)
+    rims = _strongest_rim(polygon, count, beyond, sqrt(gu * gu + gv * gv) * beyond, overlap)
     m = _moments(polygon, count, u0, v0)
     first = d0 * m[0] + gu * m[1] + gv * m[2]
     second = d0 * d0 * m[0] + 2.0 * d0 * (gu * m[1] + gv * m[2]) + gu * gu * m[3] + 2.0 * gu * gv * m[4] + gv * gv * m[5]
@@ -205,6 +258,11 @@ def press_face(scratch, count_a, normal_a, count_b, normal_b, reach, overlap, mo
         if cut >> (k & 63) & 1:
             fence = _fence(scratch, k, count_b, origin, t1, t2, normal_b)
             force, moment = _border(polygon, count, fence, origin, t1, t2, normal_b, reach, force, moment, plane, pressure)
+        if bevelled >> (k & 63) & 1:
+            sharp, across, along_it, limit = _bevel(scratch, k, count_b, origin, t1, t2)
+            if sharp:
+                fence = across, along_it, limit
+                force, moment = _border(polygon, count, fence, origin, t1, t2, normal_b, reach, force, moment, plane, pressure)
     # the second moments as squares of two vectors (Cholesky)
     one = sqrt(juu / first)
     two = juv / (first * one)

@@ -6,10 +6,11 @@ the largest where two are equal and equal to it where one leads; a feature of le
 
 from math import log, pi, sqrt
 
-from dilatedem.contact.consistent.cap import CORNERS, UNBOUNDED, corner_of, facing, lay_out, lay_sides, side_of
+from dilatedem.contact.consistent.cap import CORNERS, UNBOUNDED, corner_of, facing, lay_out, lay_sides, nearest, side_of
 from dilatedem.contact.consistent.face import press_face
-from dilatedem.contact.consistent.line import OFFSET, SHORT, press_edge
+from dilatedem.contact.consistent.line import line_compliance, press_edge
 from dilatedem.contact.consistent.point import press_vertex
+from dilatedem.contact.support import PARALLEL
 from dilatedem.jit import device, item
 from dilatedem.numerics.vector import along, cross, dot, load, norm, scale, sub
 from dilatedem.state.modes import Mode
@@ -18,11 +19,14 @@ from dilatedem.state.modes import Mode
 SHARP = 16.0
 SHARE = log(2.0) / SHARP
 HERTZ = 8.0 / 15.0
+#: m3 and m: no bound on what edges press, and none of its powers overflows
+FAR = 1e100
 #: share of the largest energy below which a feature is left out: its force would be 0.5^15 = 3e-5 of its own
 NEGLECTED = 0.5
 
 VERTEX_VERTEX, VERTEX_EDGE, VERTEX_FACE = int(Mode.VERTEX_VERTEX), int(Mode.VERTEX_EDGE), int(Mode.VERTEX_FACE)
-EDGE_PARALLEL, EDGE_FACE, FACE_FACE = int(Mode.EDGE_PARALLEL), int(Mode.EDGE_FACE), int(Mode.FACE_FACE)
+EDGE_CROSSING, EDGE_PARALLEL = int(Mode.EDGE_CROSSING), int(Mode.EDGE_PARALLEL)
+EDGE_FACE, FACE_FACE = int(Mode.EDGE_FACE), int(Mode.FACE_FACE)
 NONE = (0.0, 0.0, 0.0)
 
 
@@ -54,14 +58,24 @@ def _line_bound(modulus, second, length, overlap, curvature):
     """Upper bound of the energy of an edge with the integral `second` of its squared overlap, no more than `overlap` anywhere, no
     longer than `length`."""
     short = second / (overlap * overlap)  # the shorter the line, the stiffer
-    lam = OFFSET + log(min(short, length) ** 2 * curvature / overlap + SHORT)
-    return 0.5 * pi * modulus * second / (lam + log(lam) + 0.5)
+    return 0.5 * pi * modulus * second / line_compliance(min(short, length) ** 2 * curvature / overlap)[0]
 
 
 @device
 def _point_bound(modulus, overlap, radius):
     """Upper bound of the energy of a vertex that presses by at most `overlap`."""
     return HERTZ * modulus * overlap * overlap * sqrt(overlap * radius)
+
+
+@device
+def _edges(scratch, which, count, normal, p, e, force, moment):
+    """Mode of an edge p + s e that presses on an edge of cap `which`: by their angle where the force acts."""
+    arm = cross(e, force)
+    square = dot(arm, arm)
+    x = along(p, dot(sub(moment, cross(p, force)), arm) / square, e) if square > 0.0 else p
+    _, place, _ = nearest(scratch, which, count, normal, x)
+    c = dot(e, side_of(scratch, which, place if count > 2 else 0))
+    return EDGE_CROSSING if 1.0 - c * c > PARALLEL * PARALLEL else EDGE_PARALLEL
 
 
 @item
@@ -93,7 +107,9 @@ def _press_rims(own, scratch, count, radius, their, other, normal, overlap, long
         energy, more, turn, line, across = press_edge(p, e, length, radius, scratch, which, their, normal, other, modulus, SHARP)
         if energy > NEGLECTED * largest:
             if energy > largest:
-                mode, size = EDGE_FACE if across < 0.5 else EDGE_PARALLEL, line
+                mode, size = EDGE_FACE, line
+                if across >= 0.5:
+                    mode = _edges(scratch, which, their, normal, p, e, more, turn)
                 spread = scale(line / sqrt(12.0), e), NONE
             largest, total, force, moment = _join(largest, total, force, moment, energy, scale(sign, more), scale(sign, turn))
     for i in range(count):
@@ -113,18 +129,20 @@ def _press_rims(own, scratch, count, radius, their, other, normal, overlap, long
 
 
 @item
-def pose_energy(vertex, face_normal, shapes, a, b, corner_a, corner_b, offset, normal, pb, overlap, modulus, scratch):
+def pose_energy(
+    vertex, face_normal, shapes, a, b, corners, corner_a, corner_b, offset, normal, pb, overlap, modulus, scratch
+):  # fmt: skip
     """Energy W [J] of the pose of two bodies whose dilations overlap; force on b [N] and its moment about a's centroid [N m];
     mode, size (area, length or 1) and spread of the leading feature: two vectors [m] whose squares add up to the second moments of
     its overlap.
 
-    corner_a, corner_b: a closest vertex of each core; offset: centroid of b, normal: unit, from a to b; pb: witness point on b; all
-    relative to a's centroid; overlap [m]: of the dilations, the deepest there is; scratch (6, MOST_CORNERS, 3). The cores must not
-    intersect. b may be a half space.
+    corner_a, corner_b: [:corners] the closest vertices of each core; offset: centroid of b, normal: unit, from a to b; pb: witness
+    point on b; all relative to a's centroid; overlap [m]: of the dilations, the deepest there is; scratch (6, MOST_CORNERS, 3). The
+    cores must not intersect. b may be a half space.
     """
     ra, rb = shapes.radius[a], shapes.radius[b]
     half_space = shapes.kind[b] != 0
-    fa = facing(vertex, face_normal, shapes, a, corner_a, normal)
+    fa = facing(vertex, face_normal, shapes, a, corners, corner_a, normal)
     na = lay_out(vertex, shapes, a, fa, NONE, scratch, 0)
     normal_a, normal_b = normal, scale(-1.0, normal)
     if fa >= 0:
@@ -135,17 +153,15 @@ def pose_energy(vertex, face_normal, shapes, a, b, corner_a, corner_b, offset, n
         for m in range(3):
             scratch[CORNERS + 1, 0, m] = pb[m]
     else:
-        fb = facing(vertex, face_normal, shapes, b, corner_b, normal_b)
+        fb = facing(vertex, face_normal, shapes, b, corners, corner_b, normal_b)
         nb = lay_out(vertex, shapes, b, fb, offset, scratch, 1)
         if fb >= 0:
             normal_b = load(face_normal, fb)
     reach = ra + rb
     sums = 0.0, 0.0, NONE, NONE, VERTEX_FACE, 1.0, (NONE, NONE)
-    rims, longest = 1e300, 1e300
+    rims, longest = FAR, FAR
     if fa >= 0 and (fb >= 0 or half_space):
-        energy, more, turn, area, bound, spread = press_face(
-            scratch, na, normal_a, nb, normal_b, reach, overlap, modulus
-        )
+        energy, more, turn, area, bound, spread = press_face(scratch, na, normal_a, nb, normal_b, reach, overlap, modulus)
         if energy > 0.0:
             sums = energy, 1.0, scale(-1.0, more), scale(-1.0, turn), FACE_FACE, area, spread
             rims, longest = bound

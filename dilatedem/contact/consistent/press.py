@@ -56,8 +56,8 @@ def press_consistent(k, shapes, vertex, face_normal, solids, bodies, pairs, cont
     if -gap < DEEPEST_SHARE * reach:
         modulus = 1.0 / (solids.compliance[a] + solids.compliance[b])
         energy, force, moment, mode, size, spread = pose_energy(
-            vertex, face_normal, shapes, a, b, pairs.corner_a[k, 0], pairs.corner_b[k, 0], offset, normal, pb, -gap, modulus,
-            scratch,
+            vertex, face_normal, shapes, a, b, pairs.corners[k], pairs.corner_a[k], pairs.corner_b[k], offset, normal, pb, -gap,
+            modulus, scratch,
         )  # fmt: skip
         elastic = norm(force)
     if not (energy > 0.0 and elastic > 0.0):

@@ -188,7 +188,6 @@ def test_the_patch_of_a_floe_ends_where_its_own_border_does():
         assert found[1][:2] == pytest.approx(np.zeros(2), abs=1e-12 * found[1][2])
 
 
-@pytest.mark.xfail(strict=True, reason="at a sharp corner the border moved out by MARGIN reaches MARGIN / sin(half the angle)")
 def test_the_margin_of_a_needle_is_no_longer_than_that_of_a_square():
     # a small square beside the tip of a needle of 1 degree, 3 mm beyond it
     needle = np.array([[0.0, 0.0], [-1.0, 0.5 * np.radians(1.0)], [-1.0, -0.5 * np.radians(1.0)]])

@@ -69,9 +69,6 @@ def test_one_energy_is_little_above_the_largest():
     assert (energies[:, 0] >= energies[:, 2] * (1.0 - 1e-9)).all()
 
 
-@pytest.mark.xfail(
-    strict=True, reason="the length that no edge exceeds is too short where a sliver of a patch lies beside a long rim"
-)
 def test_upright_edges_beside_each_other_both_count():
     # two floes corner on corner, 5 mm into each other and tilted by 2e-3: their patch is a sliver, and both upright edges press
     # over 0.3 m. Which of them are measured must not depend on a hair of overlap
@@ -126,9 +123,7 @@ def test_rolling_over_a_blunt_ridge(degrees, overlap, beside):
     assert found[1].moment == pytest.approx(found[0].moment, abs=1e-3 * force)
 
 
-@pytest.mark.parametrize(
-    "height", [1e-12, 1e-3, -0.01, pytest.param(0.0, marks=pytest.mark.xfail(strict=True, reason="a plate met edge-on has no cap"))]
-)
+@pytest.mark.parametrize("height", [0.0, 1e-12, 1e-3, -0.01])
 @pytest.mark.parametrize("shift", [0.3, 2.0])
 def test_thin_floes_at_one_height(height, shift):
     # flat cores (a floe of two dilated radii), level: half-cylinders beside each other
@@ -150,7 +145,6 @@ def test_thin_floes_at_one_height(height, shift):
     assert found.force[2] / found.force[0] == pytest.approx(height / (REACH - 1e-3), rel=0.05, abs=1e-9)
 
 
-@pytest.mark.xfail(strict=True, reason="the flattest face at one corner of the closest edge need not be one of the edge's two")
 def test_the_cap_holds_the_closest_edge():
     # a roof with a ridge along x over low hips: at the ridge's end a hip is flatter than the roof's sides
     roof = convex_hull(

@@ -42,6 +42,21 @@ def test_uniform_line(length, radius, overlap):
         assert 0.5 * expected < force < expected
 
 
+#: F/E* [m2] by (length, radius, overlap) [m] of validation/half_space/reference.csv, lines with sharp ends
+STUBS = {
+    (0.02, 2.0, 1e-4): 2.138e-6, (0.05, 2.0, 1e-3): 6.101e-5, (0.1, 2.0, 1e-3): 8.428e-5, (0.2, 2.0, 1e-3): 1.237e-4,
+    (0.42, 2.0, 1e-3): 1.98e-4, (0.01, 0.04, 1e-3): 1.006e-5, (0.02, 0.04, 1e-3): 1.433e-5, (0.1, 0.04, 1e-3): 4.018e-5,
+    (0.42, 0.04, 1e-4): 9.721e-6,
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("length", "radius", "overlap"), STUBS)
+def test_short_line_is_that_of_the_half_space(length, radius, overlap):
+    _, by_first, by_second, _ = line_law(1.0, length * overlap, length * overlap**2, 1.0 / radius)
+    force = by_first * length + by_second * 2.0 * length * overlap
+    assert force == pytest.approx(STUBS[length, radius, overlap], rel=0.035)
+
+
 def test_line_law_has_the_derivatives_it_says():
     for length, radius, overlap in product((0.003, 0.1, 2.0), (0.02, 2.0), (1e-6, 1e-3)):
         at = np.array([length * overlap, length * overlap**2, 1.0 / radius])
@@ -49,9 +64,7 @@ def test_line_law_has_the_derivatives_it_says():
         for i in range(3):
             h = np.where(np.arange(3) == i, 1e-6, 0.0)
             slope = (line_law(3.0, *(at * (1 + h)))[0] - line_law(3.0, *(at * (1 - h)))[0]) / (2e-6 * at[i])
-            # one Newton step solves the law's Lam: what is left of its error, most for stubs, is missing in the derivative
-            exact = 3e-4 if length**2 > 400.0 * radius * overlap else 5e-3
-            assert found[1 + i] == pytest.approx(slope, rel=exact), (length, radius, overlap, i)
+            assert found[1 + i] == pytest.approx(slope, rel=1e-6), (length, radius, overlap, i)
 
 
 def test_energy_of_a_line_rises_with_its_length_and_falls_with_its_curvature():
@@ -78,7 +91,6 @@ def test_crossing_edges_are_elliptic_hertz(angle, radii):
         assert np.cross(found.force, found.moment) / np.dot(found.force, found.force) == pytest.approx([0.3, 0.0, 0.0], abs=1e-6)
 
 
-@pytest.mark.xfail(strict=True, reason="the model writes EDGE_PARALLEL for all edges; EDGE_CROSSING is not used")
 def test_crossing_edges_are_counted_as_such():
     core = convex_hull([[-1.0, 0.0, 0.0], [1.0, 0.0, 0.0]])
     pair = PairInPlace(core, core)
@@ -195,9 +207,7 @@ def test_force_and_moment_are_minus_the_gradient(name):
     assert np.mean(np.array(worst) > 1e-3) < 0.06
 
 
-@pytest.mark.parametrize(
-    "corners", [12, 20, pytest.param(100, marks=pytest.mark.xfail(strict=True, reason="cut off after MOST_PIECES = 24 regions"))]
-)
+@pytest.mark.parametrize("corners", [12, 20, 100, 120])
 def test_an_edge_across_a_cap_of_many_corners(corners):
     # a bar on a round table, 20 mm inside its rim: the chord is 0.28 m long for any number of corners that makes it round
     t = 2.0 * np.pi * np.arange(corners) / corners
