@@ -1,0 +1,148 @@
+"""What a user waits for besides stepping: the start, the files, a large field, the paper's case. Each in a process of its own."""
+
+import os
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+from benchmarks.machine import describe
+
+ROOT = Path(__file__).parents[1]
+PAPER_CASE = ROOT / "cases" / "pile.toml"
+#: floes of the large field, for memory and generation
+LARGE = 100_000
+#: simulated time over which the writing of files is timed, s: a checkpoint at 10 s and one at the end, snapshots every second
+FILES_DURATION = 20.0
+
+#: dilatedem's command line up to the end of the first step of the run itself (kernels are tried out on one body before); then it
+#: tells the time and ends
+_FIRST_STEP = """
+import os, sys, time
+from dilatedem import simulation
+from dilatedem.cli import main
+whole = simulation.Simulation.advance
+def first(self, steps, *, dt=None):
+    if dt is not None or self.model.floating < 2:
+        return whole(self, steps, dt=dt)
+    whole(self, 1)
+    print("first step", time.time(), flush=True)
+    os._exit(0)
+simulation.Simulation.advance = first
+main()
+"""
+
+#: the paper's case for a while, with the time inside every call that writes
+_FILES = """
+import sys, time
+from dilatedem import simulation
+from dilatedem.case.load import load
+from dilatedem.run_output import RunOutput
+from pathlib import Path
+spent = [0.0]
+def clocked(method):
+    def call(*arguments, **options):
+        began = time.perf_counter()
+        try:
+            return method(*arguments, **options)
+        finally:
+            spent[0] += time.perf_counter() - began
+    return call
+simulation.compile_kernels()
+loop = [0.0]
+case = load(sys.argv[1], ["time.duration=" + sys.argv[2], "time.error_check=false"])
+RunOutput.observe, RunOutput.complete = clocked(RunOutput.observe), clocked(RunOutput.complete)
+began = time.perf_counter()
+simulation.run(case, Path(sys.argv[3]), quiet=True)
+whole = time.perf_counter() - began
+print("files", spent[0], whole)
+"""
+
+#: a large field in memory and a few steps of it
+_LARGE = """
+import sys, time
+from benchmarks.scenes import settled, sized
+simulation = sized(settled("packed", "liu2015"), int(sys.argv[1]))
+simulation.advance(5)
+began = time.perf_counter()
+simulation.advance(10)
+print("large", simulation.model.floating, (time.perf_counter() - began) / 10)
+"""
+
+
+def _run(arguments: list[str], environment: dict[str, str] | None = None) -> tuple[str, float, float]:
+    """Standard output, wall time [s] and peak memory [GB] of a Python process. Raises RuntimeError where it fails."""
+    began = time.perf_counter()
+    with tempfile.TemporaryFile("w+") as out, tempfile.TemporaryFile("w+") as complaints:
+        process = subprocess.Popen([sys.executable, *arguments], stdout=out, stderr=complaints, cwd=ROOT, env=environment)
+        _, status, usage = os.wait4(process.pid, 0)
+        process.returncode = os.waitstatus_to_exitcode(status)
+        spent = time.perf_counter() - began
+        out.seek(0)
+        complaints.seek(0)
+        if process.returncode != 0:
+            raise RuntimeError(f"{' '.join(arguments)[-200:]}: exit code {process.returncode}\n{complaints.read()[-2000:]}")
+        unit = 1.0 if sys.platform == "darwin" else 1024.0
+        return out.read(), spent, usage.ru_maxrss * unit / 1e9
+
+
+def _figure(name: str, value: float, unit: str, note: str) -> dict:
+    return {"name": name, "value": value, "unit": unit, "note": note} | describe(1)
+
+
+def start() -> list[dict]:
+    """Time from the start of the process to the end of the paper case's first step: without compiled code, then with."""
+    with tempfile.TemporaryDirectory() as folder:
+        environment = os.environ | {"NUMBA_CACHE_DIR": str(Path(folder) / "cache")}
+        times = []
+        for turn in range(4):
+            out = str(Path(folder) / f"run{turn}")
+            began = time.time()
+            printed, _, _ = _run(["-c", _FIRST_STEP, "run", str(PAPER_CASE), "--out", out, "--quiet"], environment)
+            times.append(float(printed.split()[-1]) - began)
+    return [
+        _figure("start_cold_s", times[0], "s", "cases/pile.toml to its first step, empty cache"),
+        _figure("start_warm_s", min(times[1:]), "s", "the same with compiled kernels, best of three"),
+    ]
+
+
+def files() -> list[dict]:
+    """Share of a run's wall time that goes into its files, at the default intervals."""
+    with tempfile.TemporaryDirectory() as folder:
+        printed, _, _ = _run(["-c", _FILES, str(PAPER_CASE), str(FILES_DURATION), str(Path(folder) / "run")])
+    spent, whole = (float(word) for word in printed.split()[-2:])
+    note = f"of {whole:.1f} s for {FILES_DURATION:g} s of cases/pile.toml: tables, snapshots, checkpoints, default intervals"
+    return [_figure("files_percent", 100.0 * spent / whole, "%", note)]
+
+
+def memory() -> list[dict]:
+    """Peak memory of the packed scene with a hundred thousand floes, in a process that only steps."""
+    printed, _, peak = _run(["-c", _LARGE, str(LARGE)])
+    floes = int(printed.split()[-2])
+    return [_figure("memory_gb", peak, "GB", f"peak of a process that steps {floes} packed floes")]
+
+
+def generate() -> list[dict]:
+    """Wall time and peak memory of `dilatedem generate` for a hundred thousand floes of 2.8 m."""
+    side = round((LARGE * 2.8**2 / 0.64) ** 0.5, 1)
+    sets = [f"domain.size=[{side},{side}]", f"field.floe_count={LARGE}"]
+    with tempfile.TemporaryDirectory() as folder:
+        overrides = [word for text in sets for word in ("--set", text)]
+        arguments = ["-m", "dilatedem.cli", "generate", str(PAPER_CASE), "--out", str(Path(folder) / "field"), *overrides]
+        _, spent, peak = _run(arguments)
+    return [
+        _figure("generate_s", spent, "s", f"dilatedem generate with {LARGE} floes, field.vtu and field.png included"),
+        _figure("generate_gb", peak, "GB", "peak of the same"),
+    ]
+
+
+def paper() -> list[dict]:
+    """Wall time of the whole paper case as a user runs it, compiled kernels at hand."""
+    _run(["-c", "from dilatedem.simulation import compile_kernels; compile_kernels()"])
+    with tempfile.TemporaryDirectory() as folder:
+        _, spent, _ = _run(["-m", "dilatedem.cli", "run", str(PAPER_CASE), "--out", str(Path(folder) / "run"), "--quiet"])
+    return [_figure("paper_s", spent, "s", "dilatedem run cases/pile.toml, whole, one thread, compiled kernels at hand")]
+
+
+OTHERS = {"start": start, "files": files, "memory": memory, "generate": generate, "paper": paper}

@@ -1,0 +1,125 @@
+"""The fixed scenes, as Simulations: 200 floes each, or a rectangle of copies of them.
+
+drift   196 floes at 63 % concentration drift at 0.3 m/s past a pile
+jam     the same field, shoved on until its front stands at the pile
+packed  195 floes at 97 %, nearly all face on face, the 52 at the border held fast; no current
+"""
+
+import json
+from dataclasses import replace
+from math import sqrt
+from pathlib import Path
+
+import numpy as np
+
+from benchmarks.tiling import repeated_bodies, repeated_hulls, repeated_shapes, repeated_solids
+from dilatedem.case.schema import Case
+from dilatedem.simulation import PAIRS_PER_BODY, Simulation, State
+from dilatedem.state.bodies import Bodies
+from dilatedem.state.clock import Status, clock_at_start
+from dilatedem.state.pairs import empty_pairs
+from dilatedem.state.record import empty_ledger, empty_loads
+
+SCENES = ("drift", "jam", "packed")
+MODELS = ("liu2015", "consistent")
+FOLDER = Path(__file__).parent / "scenes"
+
+#: time step, s: the one at which the other codes' published figures were taken
+STEP = 1e-4
+#: steps until a scene has settled
+SETTLING = 2000
+#: velocity of the water, m/s, where floes drift; those of `packed` stand in still water
+CURRENT = {"drift": 0.3, "jam": 0.3, "packed": 0.0}
+#: how far a scene may reach beyond its own square and still stand edge to edge with its copy, m (the border of `packed`, held fast)
+SLACK = 0.01
+
+
+def scene_case(name: str, model: str = "liu2015") -> Case:
+    """The case of a fixed scene: explicit floes at their floating height, a steel pile, water, friction, open boundaries."""
+    drawn = json.loads((FOLDER / f"{name}200.json").read_text(encoding="utf-8"))
+    middle = 0.5 * drawn["domain_m"]
+    pile = drawn["pile"]
+    return Case.model_validate({
+        "title": f"benchmark scene {name}",
+        "domain": {"size": [drawn["domain_m"]] * 2, "x_boundary": "open", "y_boundary": "open"},
+        "field": {"source": "bodies"},
+        "ice": {
+            "density": 915.0, "thickness": drawn["thickness_m"], "dilated_radius": drawn["dilated_radius_m"],
+            "elastic_modulus": 1e9, "poisson_ratio": 0.3,
+        },
+        "water": {"velocity": [CURRENT[name], 0.0]},
+        "structure": [{
+            "kind": "pile", "name": "pile", "center": [pile["center_m"][0] - middle, pile["center_m"][1] - middle],
+            "radius": pile["radius_m"], "elastic_modulus": 210e9, "poisson_ratio": 0.3,
+        }],
+        "contact": {"model": model, "damping": 0.36, "friction": 0.1, "stiffness_ratio": 0.7},
+        "time": {"step": STEP},
+        "body": [
+            {
+                "outline": [[x - middle, y - middle] for x, y in floe["outline"]], "fixed": floe["fixed"],
+                "velocity": [0.0, 0.0, 0.0] if floe["fixed"] else drawn["velocity_m_s"],
+            }
+            for floe in drawn["floes"]
+        ],
+    })  # fmt: skip
+
+
+def scene_simulation(name: str, model: str = "liu2015", *, threads: int = 1) -> Simulation:
+    """A fixed scene at t = 0, its loads not evaluated yet."""
+    return Simulation.of_case(scene_case(name, model), threads=threads)
+
+
+def tiles_for(floes: int, per_tile: int) -> tuple[int, int]:
+    """Copies along x and y: the rectangle, square or nearly so, whose floes come closest to the number asked for."""
+    wanted = max(1, round(floes / per_tile))
+    across = max(1, round(sqrt(wanted)))
+    return max(1, round(wanted / across)), across
+
+
+def pitch_of(tile: Simulation) -> np.ndarray:
+    """Distance of neighbouring copies along x and y [m]: the scene's own size, or the length of its ice where that is longer."""
+    corners = np.concatenate([body.outline for body in tile.scene.bodies])
+    extent = corners.max(axis=0) - corners.min(axis=0)
+    size = np.array(tile.case.domain.size)
+    return np.where(extent > size + SLACK, np.ceil(extent), size)
+
+
+def tiled(tile: Simulation, along_x: int, along_y: int, *, threads: int = 1) -> Simulation:
+    """Copies of a scene as it stands side by side, each with its own pile; a copy's floes stand together in the arrays.
+
+    So the work per floe is that of the scene itself, and what is left of a difference is memory and search.
+    """
+    copies, floating = along_x * along_y, tile.model.floating
+    model = tile.model._replace(
+        floating=copies * floating,
+        shapes=repeated_shapes(tile.model.shapes, floating, copies),
+        hulls=repeated_hulls(tile.model.hulls, copies),
+        solids=repeated_solids(tile.model.solids, floating, copies),
+    )
+    steps = np.indices((along_x, along_y)).reshape(2, -1).T * pitch_of(tile)
+    moves = np.column_stack([steps - steps.mean(axis=0), np.zeros(copies)])
+    bodies: Bodies = repeated_bodies(tile.state.bodies, floating, moves)
+    origin = np.tile(tile.state.loads.map_origin, (copies, 1))
+    origin[:, :2] += np.repeat(moves[:, :2], len(tile.state.loads.map_origin), axis=0)
+    loads = empty_loads(origin, np.tile(tile.state.loads.map_span, (copies, 1)))
+    pairs = empty_pairs(PAIRS_PER_BODY * len(bodies.path) + 64)
+    state = State(bodies, pairs, empty_ledger(), loads, clock_at_start(), type(tile.state.totals)())
+    return replace(tile, model=model, state=state, threads=threads)
+
+
+def settled(name: str, model: str) -> Simulation:
+    """A fixed scene after the unrest of its first fifth of a second: the overlaps that it was drawn with have given way."""
+    tile = scene_simulation(name, model)
+    tile.evaluate()
+    status = tile.advance(SETTLING)
+    if status != Status.DONE:
+        raise RuntimeError(f"scene {name} stopped: {status.name}")
+    return tile
+
+
+def sized(tile: Simulation, floes: int, *, threads: int = 1) -> Simulation:
+    """About so many floes in copies of a settled scene, their loads evaluated; friction springs start anew."""
+    along_x, along_y = tiles_for(floes, tile.model.floating)
+    simulation = tiled(tile, along_x, along_y, threads=threads)
+    simulation.evaluate()
+    return simulation

@@ -1,0 +1,114 @@
+"""The time step with a clock between its stages.
+
+Python's clock cannot be read in compiled code; the C library's can. `timed_advance` repeats `dilatedem.motion.step.advance`
+stage by stage; tests/performance/test_timed_step.py holds the two together, word by word and bit by bit.
+"""
+
+import time
+
+import numpy as np
+from numba import types
+
+from dilatedem.contact.gather import record_contacts, record_loads
+from dilatedem.contact.neighbours import awake_pairs, find_pairs
+from dilatedem.jit import device, kernel
+from dilatedem.motion.paces import foresee
+from dilatedem.motion.stages import collide_pairs, complete_spins, drift_bodies, load_and_kick, longest_path, surprised, turn_shapes
+from dilatedem.motion.step import DONE, PAIRS_FULL, TOO_DEEP, TOO_FAST
+
+#: stages in the order of the step; `booked` of `timed_advance` has a row for each
+STAGES = ("search", "foresee", "drift", "wake", "turn", "collide", "float", "record", "idle")
+SEARCH, FORESEE, DRIFT, WAKE, TURN, COLLIDE, FLOAT, RECORD, IDLE = range(len(STAGES))
+
+#: POSIX clock that no one sets; its number differs between systems
+_MONOTONIC = getattr(time, "CLOCK_MONOTONIC", 1)
+_clock_gettime = types.ExternalFunction("clock_gettime", types.int32(types.int32, types.voidptr))
+
+
+@device
+def _now(timespec):
+    """Nanoseconds on the C library's clock; timespec (2,) is room for its answer."""
+    _clock_gettime(_MONOTONIC, timespec.ctypes)
+    return 1_000_000_000 * timespec[0] + timespec[1]
+
+
+@device
+def _lap(booked, stage, timespec, since):
+    """Book the time since `since` [ns] on a stage, and the reading; returns the present."""
+    now = _now(timespec)
+    booked[stage, 0] += now - since
+    booked[stage, 1] += 1
+    return now
+
+
+@kernel
+def _read_clock(readings, booked, timespec):
+    began = since = _now(timespec)
+    for _ in range(readings):
+        since = _lap(booked, 0, timespec, since)
+    return since - began
+
+
+def clock_cost(readings: int = 200_000) -> float:
+    """What one reading of the clock adds to a stage, ns: the best of five rounds."""
+    booked, timespec = np.zeros((1, 2), np.int64), np.zeros(2, np.int64)
+    return min(_read_clock(readings, booked, timespec) for _ in range(5)) / readings
+
+
+@kernel
+def timed_advance(team, model, bodies, pairs, spare, cells, workspace, ledger, loads, clock, dt, span, steps, booked, timespec):
+    """As `advance`, and adds up the time of each stage.
+
+    booked (stages, 2) int64 [ns, readings of the clock] is added to; timespec (2,) int64: room.
+    """
+    status, goal = DONE, clock.step[0] + steps
+    while status == DONE and clock.step[0] < goal:
+        t = _now(timespec)
+        if longest_path(bodies) >= pairs.limit[0] and not find_pairs(model, bodies, pairs, spare, cells, clock):
+            return PAIRS_FULL
+        t = _lap(booked, SEARCH, timespec, t)
+        start = clock.step[0]
+        ahead, near, busy, idle = foresee(dt, min(span - start % span, goal - start), model, bodies, pairs, workspace)
+        t = _lap(booked, FORESEE, timespec, t)
+        while clock.step[0] < start + ahead:
+            if not drift_bodies(team, workspace.busy, busy, dt, model, bodies, pairs, workspace, clock):
+                status = TOO_FAST
+                break
+            t = _lap(booked, DRIFT, timespec, t)
+            clock.step[0] += 1
+            awake = awake_pairs(clock.step[0], near, bodies, pairs, workspace)
+            t = _lap(booked, WAKE, timespec, t)
+            turn_shapes(team, clock.step[0], busy, model, bodies, workspace)
+            t = _lap(booked, TURN, timespec, t)
+            collide_pairs(team, awake, dt, model, bodies, pairs, workspace)
+            t = _lap(booked, COLLIDE, timespec, t)
+            load_and_kick(team, workspace.busy, busy, awake, dt, model, bodies, pairs, workspace)
+            t = _lap(booked, FLOAT, timespec, t)
+            deep = record_contacts(awake, dt, model, bodies, pairs, workspace, ledger, loads, clock)
+            record_loads(loads)
+            if deep or surprised(workspace):
+                status = TOO_DEEP if deep else DONE
+                break
+            t = _lap(booked, RECORD, timespec, t)
+        spent = (clock.step[0] - start) * dt
+        if not drift_bodies(team, workspace.idle, idle, spent, model, bodies, pairs, workspace, clock):
+            status = TOO_FAST
+        load_and_kick(team, workspace.idle, idle, 0, spent, model, bodies, pairs, workspace)
+        t = _lap(booked, IDLE, timespec, t)
+    complete_spins(model, bodies)
+    return status
+
+
+def timed(simulation, steps: int) -> tuple[dict[str, float], float]:
+    """Advance a simulation whose pairs have room; returns us a step by stage, less the clock's share, and awake pairs."""
+    booked, timespec, evaluations = np.zeros((len(STAGES), 2), np.int64), np.zeros(2, np.int64), simulation.state.clock.evaluations
+    before = int(evaluations[0])
+    status = simulation._call(timed_advance, simulation.dt, simulation.span, steps, booked, timespec)
+    if status != DONE:
+        raise RuntimeError(f"the timed run came back with {status.name}")
+    cost = clock_cost()
+    per_step = {
+        stage: max(0.0, total - readings * cost) / steps * 1e-3
+        for stage, (total, readings) in zip(STAGES, booked.tolist(), strict=True)
+    }
+    return per_step, (int(evaluations[0]) - before) / steps
