@@ -9,7 +9,7 @@ import time
 import numpy as np
 from numba import types
 
-from dilatedem.contact.gather import record_contacts, record_loads
+from dilatedem.contact.gather import close_tally, load_structures, record_loads, too_deep
 from dilatedem.contact.neighbours import awake_pairs, find_pairs
 from dilatedem.jit import device, kernel
 from dilatedem.motion.paces import foresee
@@ -56,7 +56,7 @@ def clock_cost(readings: int = 200_000) -> float:
 
 
 @kernel
-def timed_advance(team, model, bodies, pairs, spare, cells, workspace, ledger, loads, clock, dt, span, steps, booked, timespec):
+def timed_advance(team, model, bodies, pairs, spare, cells, workspace, tally, ledger, loads, clock, dt, span, steps, booked, timespec):
     """As `advance`, and adds up the time of each stage.
 
     booked (stages, 2) int64 [ns, readings of the clock] is added to; timespec (2,) int64: room.
@@ -65,10 +65,12 @@ def timed_advance(team, model, bodies, pairs, spare, cells, workspace, ledger, l
     while status == DONE and clock.step[0] < goal:
         t = _now(timespec)
         if longest_path(bodies) >= pairs.limit[0] and not find_pairs(model, bodies, pairs, spare, cells, clock):
-            return PAIRS_FULL
+            status = PAIRS_FULL
+            break
         t = _lap(booked, SEARCH, timespec, t)
         start = clock.step[0]
         ahead, near, busy, idle = foresee(dt, min(span - start % span, goal - start), model, bodies, pairs, workspace)
+        clock.moves[0] += idle
         t = _lap(booked, FORESEE, timespec, t)
         while clock.step[0] < start + ahead:
             if not drift_bodies(team, workspace.busy, busy, dt, model, bodies, pairs, workspace, clock):
@@ -76,18 +78,20 @@ def timed_advance(team, model, bodies, pairs, spare, cells, workspace, ledger, l
                 break
             t = _lap(booked, DRIFT, timespec, t)
             clock.step[0] += 1
-            awake = awake_pairs(clock.step[0], near, bodies, pairs, workspace)
+            clock.moves[0] += busy
+            awake, at_structure = awake_pairs(clock.step[0], near, model.floating, bodies, pairs, workspace)
             t = _lap(booked, WAKE, timespec, t)
             turn_shapes(team, clock.step[0], busy, model, bodies, workspace)
             t = _lap(booked, TURN, timespec, t)
-            collide_pairs(team, awake, dt, model, bodies, pairs, workspace)
+            collide_pairs(team, awake, dt, model, bodies, pairs, workspace, tally)
             t = _lap(booked, COLLIDE, timespec, t)
             load_and_kick(team, workspace.busy, busy, awake, dt, model, bodies, pairs, workspace)
             t = _lap(booked, FLOAT, timespec, t)
-            deep = record_contacts(awake, dt, model, bodies, pairs, workspace, ledger, loads, clock)
+            load_structures(at_structure, dt, model.floating, bodies, pairs, workspace, loads)
             record_loads(loads)
-            if deep or surprised(workspace):
-                status = TOO_DEEP if deep else DONE
+            if too_deep(tally, pairs, clock):
+                status = TOO_DEEP
+            if status != DONE or surprised(workspace):
                 break
             t = _lap(booked, RECORD, timespec, t)
         spent = (clock.step[0] - start) * dt
@@ -95,6 +99,7 @@ def timed_advance(team, model, bodies, pairs, spare, cells, workspace, ledger, l
             status = TOO_FAST
         load_and_kick(team, workspace.idle, idle, 0, spent, model, bodies, pairs, workspace)
         t = _lap(booked, IDLE, timespec, t)
+    close_tally(tally, ledger, loads, clock)
     complete_spins(model, bodies)
     return status
 

@@ -177,7 +177,7 @@ def replay(simulation, steps: int, parts: int, asked: Callable[[], bool]) -> dic
     while left > 0:
         if asked():
             raise Interrupted("interrupted while the time step was checked; the run is saved, --resume checks again")
-        chunk = min(left, CHUNK)
+        chunk = min(left, -(-CHUNK // again.span) * again.span)
         status = again.advance(chunk)
         if status != Status.DONE:
             time_s = copy.step * simulation.dt + again.time_s

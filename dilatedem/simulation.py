@@ -246,11 +246,11 @@ def _compile(threads: int, progress: Progress) -> float:
 
 def _loop(simulation: Simulation, output: RunOutput, steps: int, progress: Progress, interruption: Interruption) -> None:
     """Advance from one due output to the next until the end, an interruption or a fault."""
-    clock = simulation.state.clock
+    clock, longest = simulation.state.clock, -(-LONGEST_CHUNK // simulation.span) * simulation.span
     progress.update(simulation.time_s, int(clock.step[0]), simulation.contacts)
     while clock.step[0] < steps:
         now = int(clock.step[0])
-        status = simulation.advance(min(output.next_due(now), steps, now + LONGEST_CHUNK) - now)
+        status = simulation.advance(min(output.next_due(now), steps, now + longest) - now)
         _stop_on_fault(simulation, output, status)
         output.observe(last=clock.step[0] == steps)
         progress.update(simulation.time_s, int(clock.step[0]), simulation.contacts)

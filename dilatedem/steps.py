@@ -32,8 +32,7 @@ def time_step(case: Case, critical: float) -> float:
     if common >= SHORTEST_WINDOW * longest:
         window = common
     steps, span = math.ceil(window / longest - 1e-9), longest_span(longest)
-    while span > max(steps // 4, 1):  # a short window is not worth a shorter step
-        span //= 2
+    span = max(1, min(span, steps // 4))  # a short window is not worth a shorter step
     return window / (-(-steps // span) * span)
 
 
@@ -52,29 +51,23 @@ def _common_part(intervals: list[float]) -> float:
 
 
 def longest_span(dt: float) -> int:
-    """The highest power of two of steps of dt [s] that idle bodies may take in one."""
-    span = 1
-    while 2 * span <= MOST_SPAN and 2 * span * dt <= LONGEST_SPAN:
-        span *= 2
-    return span
+    """The most steps of dt [s] that idle bodies may take in one."""
+    return max(1, min(MOST_SPAN, int(LONGEST_SPAN / dt * (1.0 + 1e-9))))
 
 
 def free_span(case: Case, dt: float) -> int:
-    """Steps that bodies which nothing can touch take in one: a power of two that divides all intervals of output.
+    """Steps that bodies which nothing can touch take in one: the most that divide the force window, where that is steps in full.
 
-    An interval that is no whole number of steps is rounded up to spans (`Schedule`); the span is at most a sixteenth of it.
+    What else falls due within a span is written at its end (`Schedule`); no span is longer than a sixteenth of such an interval.
     """
-    span = longest_span(dt)
-    for interval in _intervals(case):
-        steps = interval / dt
-        whole = round(steps)
-        if abs(steps - whole) <= 1e-9 * steps:
-            while whole % span:
-                span //= 2
-        else:
-            while span > 1 and 16 * span > steps:
-                span //= 2
-    return span
+    window, *others = (interval / dt for interval in _intervals(case))
+    spans = [span for span in range(1, longest_span(dt) + 1) if span == 1 or _divides(span, window)]
+    return max(span for span in spans if all(_divides(span, other) or 16 * span <= other for other in others) or span == 1)
+
+
+def _divides(span: int, steps: float) -> bool:
+    whole = round(steps)
+    return abs(steps - whole) <= 1e-9 * steps and whole % span == 0
 
 
 def total_steps(case: Case, dt: float) -> int:

@@ -25,11 +25,13 @@ def advance(team, model, bodies, pairs, spare, cells, workspace, tally, ledger, 
             break
         start = clock.step[0]
         ahead, near, busy, idle = foresee(dt, min(span - start % span, goal - start), model, bodies, pairs, workspace)
+        clock.moves[0] += idle
         while clock.step[0] < start + ahead:
             if not drift_bodies(team, workspace.busy, busy, dt, model, bodies, pairs, workspace, clock):
                 status = TOO_FAST
                 break
             clock.step[0] += 1
+            clock.moves[0] += busy
             awake, at_structure = awake_pairs(clock.step[0], near, model.floating, bodies, pairs, workspace)
             turn_shapes(team, clock.step[0], busy, model, bodies, workspace)
             collide_pairs(team, awake, dt, model, bodies, pairs, workspace, tally)

@@ -22,6 +22,7 @@ class Clock(NamedTuple):
     status: np.ndarray  # (1,) Status
     culprit: np.ndarray  # (2,) bodies at fault, -1 = none
     measure: np.ndarray  # (1,) the move or the overlap at fault, m
+    moves: np.ndarray  # (1,) bodies moved, each once in a step or, idle ones, in a span
     evaluations: np.ndarray  # (1,) pairs looked at closely
     rounds: np.ndarray  # (1,) rounds of their distance searches
     rebuilds: np.ndarray  # (1,) lists of pairs made
