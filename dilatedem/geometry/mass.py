@@ -24,7 +24,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from dilatedem.geometry.polyhedron import Polyhedron, add_rows, edge_faces, triangles, weighted
+from dilatedem.geometry.polyhedron import Polyhedron, add_rows, edge_faces, rows, triangles, weighted
 
 Moments = tuple[np.ndarray, np.ndarray, np.ndarray]  # int dV (...,) [m3], int x dV (..., 3) [m4], int x x dV (..., 3, 3) [m5]
 
@@ -93,7 +93,7 @@ def edge_arcs(core: Polyhedron) -> EdgeArcs:
         angle = np.full(direction.shape[:-1], 2.0 * np.pi)
         return EdgeArcs(angle, direction, across / np.linalg.norm(across, axis=-1, keepdims=True))
     beside = edge_faces(core)
-    left, right = core.normals[..., beside[:, 0], :], core.normals[..., beside[:, 1], :]
+    left, right = rows(core.normals, beside[:, 0]), rows(core.normals, beside[:, 1])
     angle = np.arctan2(np.linalg.norm(np.cross(left, right), axis=-1), np.einsum("...i,...i->...", left, right))
     # The normals alone lose the bisector on a plate (opposite normals), the in-face outward directions lose
     # it where faces are nearly coplanar; their sum is safe in between too.
@@ -104,7 +104,7 @@ def edge_arcs(core: Polyhedron) -> EdgeArcs:
 
 def _ends(core: Polyhedron) -> tuple[np.ndarray, np.ndarray]:
     """Start and end (..., e, 3) of every edge."""
-    return core.vertices[..., core.edges[:, 0], :], core.vertices[..., core.edges[:, 1], :]
+    return rows(core.vertices, core.edges[:, 0]), rows(core.vertices, core.edges[:, 1])
 
 
 def _nothing(core: Polyhedron) -> Moments:
@@ -119,7 +119,7 @@ def _with_transpose(matrix: np.ndarray) -> np.ndarray:
 def _core(core: Polyhedron) -> Moments:
     if core.dimension < 3:
         return _nothing(core)
-    corner = core.vertices[..., triangles(core)[0], :]
+    corner = rows(core.vertices, triangles(core)[0])
     volume = np.linalg.det(corner) / 6.0  # tetrahedra from the reference point
     total = corner.sum(axis=-2)
     first = weighted(volume, total) / 4.0
@@ -132,7 +132,7 @@ def _face_slabs(core: Polyhedron, r: float) -> Moments:
     if not core.faces:
         return _nothing(core)
     index, face = triangles(core)
-    corner, normal = core.vertices[..., index, :], core.normals[..., face, :]
+    corner, normal = rows(core.vertices, index), rows(core.normals, face)
     spanned = np.cross(corner[..., 1, :] - corner[..., 0, :], corner[..., 2, :] - corner[..., 0, :])
     area = 0.5 * np.einsum("...i,...i->...", spanned, normal)
     total = corner.sum(axis=-2)
@@ -203,7 +203,7 @@ def _solid_angles(core: Polyhedron) -> np.ndarray:
         return np.full((*stack, 1), 4.0 * np.pi)
     solid_angle = np.full((*stack, count), 2.0 * np.pi)
     for loop in core.faces:
-        corner = core.vertices[..., loop, :]
+        corner = rows(core.vertices, loop)
         ahead, behind = np.roll(corner, -1, axis=-2) - corner, np.roll(corner, 1, axis=-2) - corner
         sine = np.linalg.norm(np.cross(ahead, behind), axis=-1)
         solid_angle[..., loop] -= np.arctan2(sine, np.einsum("...i,...i->...", ahead, behind))

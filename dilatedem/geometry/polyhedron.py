@@ -97,12 +97,12 @@ def convex_hull(points: ArrayLike) -> Polyhedron:
     return _solid_hull(points, local)
 
 
-def prism(outline: ArrayLike, z_bottom: float, z_top: float) -> Polyhedron:
+def prism(outline: ArrayLike, z_bottom: ArrayLike, z_top: ArrayLike) -> Polyhedron:
     """Vertical right prism over a convex counter-clockwise `outline` (n, 2) [m] between two heights [m].
 
     Vertices: bottom ring 0..n-1, then top ring n..2n-1. Faces: 0 the bottom, 1 the top, then one per side in
-    the order of the outline. Equal heights give a flat polygon. Outlines (m, n, 2) give a stack. Raises
-    ValueError when the heights are in the wrong order.
+    the order of the outline. Equal heights give a flat polygon. Outlines (m, n, 2) give a stack,
+    their heights being (m,) or common to all. Raises ValueError when the heights are in the wrong order.
     """
     outline = np.asarray(outline, dtype=float)
     if outline.ndim not in (2, 3) or outline.shape[-1] != 2 or outline.shape[-2] < 3:
@@ -111,20 +111,22 @@ def prism(outline: ArrayLike, z_bottom: float, z_top: float) -> Polyhedron:
     ring = np.arange(count)
     # round-off in t/2 - r may put the top a hair below the bottom of a floe that is just two radii thick
     flat = RESOLUTION * float(np.ptp(outline, axis=-2).max())
-    if not z_top >= z_bottom - flat:
+    height = np.subtract(z_top, z_bottom)
+    if not np.all(height >= -flat):
         raise ValueError(f"the top of a prism ({z_top} m) must not lie below its bottom ({z_bottom} m)")
-    if z_top - z_bottom <= flat:
-        return assemble(_at_height(outline, 0.5 * (z_bottom + z_top)), (ring[::-1].copy(), ring))
+    if np.all(height <= flat):
+        return assemble(_at_height(outline, 0.5 * np.add(z_bottom, z_top)), (ring[::-1].copy(), ring))
     following = np.roll(ring, -1)
     sides = np.column_stack((ring, following, following + count, ring + count))
     rings = np.concatenate((_at_height(outline, z_bottom), _at_height(outline, z_top)), axis=-2)
     return assemble(rings, (ring[::-1].copy(), ring + count, *sides))
 
 
-def _at_height(outline: np.ndarray, z: float) -> np.ndarray:
-    """Points (..., n, 2) in plan as points (..., n, 3) at one height."""
-    points = np.full((*outline.shape[:-1], 3), float(z))
+def _at_height(outline: np.ndarray, z: ArrayLike) -> np.ndarray:
+    """Points (..., n, 2) in plan as points (..., n, 3) at a height, of its own for each body of a stack."""
+    points = np.empty((*outline.shape[:-1], 3))
     points[..., :2] = outline
+    points[..., 2] = np.asarray(z, dtype=float)[..., None]
     return points
 
 
@@ -149,13 +151,20 @@ def assemble(vertices: ArrayLike, faces: Sequence[np.ndarray]) -> Polyhedron:
     edges = np.column_stack(np.divmod(forward, count))
 
     # Newell's normal: twice the area vector of the loop, taken about its first vertex to keep the digits
-    base = vertices[..., np.array([f[0] for f in loops])[face], :]
+    base = rows(vertices, np.array([f[0] for f in loops])[face])
     area_vector = np.zeros((*stack, len(loops), 3))
-    add_rows(area_vector, face, np.cross(vertices[..., start, :] - base, vertices[..., end, :] - base))
+    add_rows(area_vector, face, np.cross(rows(vertices, start) - base, rows(vertices, end) - base))
     length = np.linalg.norm(area_vector, axis=-1, keepdims=True)
     if not (length > 0.0).all():
         raise ValueError("a face has no area: the points are too close to degenerate")
     return Polyhedron(vertices, edges, loops, area_vector / length)
+
+
+def rows(values: np.ndarray, which: np.ndarray) -> np.ndarray:
+    """values[..., which, :], laid out in this order in memory; indexing itself may put the stack last, which is slower and rounds
+    sums in another order than for a single body.
+    """
+    return np.take(values, which, axis=-2)
 
 
 def add_rows(total: np.ndarray, row: np.ndarray, added: np.ndarray) -> None:
@@ -192,14 +201,14 @@ def volume(body: Polyhedron) -> float | np.ndarray:
     """Volume [m3]; zero for a body of dimension below 3. Of a stack (m,)."""
     if body.dimension < 3:
         return np.zeros(body.vertices.shape[:-2])[()]
-    corner = (body.vertices - body.vertices.mean(axis=-2, keepdims=True))[..., triangles(body)[0], :]
+    corner = rows(body.vertices - body.vertices.mean(axis=-2, keepdims=True), triangles(body)[0])
     return np.linalg.det(corner).sum(axis=-1) / 6.0
 
 
 def centroid(body: Polyhedron) -> np.ndarray:
     """Centroid (3,) [m] of a body of dimension 3; of a stack (m, 3)."""
     reference = body.vertices.mean(axis=-2)
-    corner = body.translated(-reference).vertices[..., triangles(body)[0], :]
+    corner = rows(body.translated(-reference).vertices, triangles(body)[0])
     weight = np.linalg.det(corner)
     return reference + weighted(weight, corner.sum(axis=-2)) / (4.0 * weight.sum(axis=-1))[..., None]
 
