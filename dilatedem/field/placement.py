@@ -6,22 +6,25 @@ Each cell is shrunk about its centroid by one common factor (physics 7). What co
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cache
 from itertools import product
 
 import numpy as np
 import shapely
 from numpy.typing import ArrayLike
-from scipy.optimize import brentq
 
 from dilatedem.field.tessellation import voronoi_cells
 from dilatedem.geometry import outline as plan
 from dilatedem.geometry.polyhedron import Polyhedron
 from dilatedem.numerics.blocks import place
+from dilatedem.numerics.root import bracketed_root
 
 # A floe whose core vanishes when it is made smaller by this part counts as too small.
 VANISHING = 1e-12
+EPSILON = float(np.finfo(float).eps)
 
 
 @dataclass(frozen=True)
@@ -156,11 +159,12 @@ def _shrink_factor(groups: Groups, ice_area: float, domain_area: float, radius: 
     """The factor at which the dilated floes cover `ice_area` [m2] together."""
     count = sum(len(index) for index, _ in groups)
 
+    @cache  # the ends of the range are asked for more than once
     def excess(factor: float) -> float:
         return float(_dilated_areas(groups, count, factor, radius)[0].sum()) - ice_area
 
     # Sharp outlines cover factor^2 of the domain, and round corners only take away from that.
-    lowest = np.sqrt(ice_area / domain_area)
+    lowest = math.sqrt(ice_area / domain_area)
     if excess(1.0) <= 0.0:
         reached = (excess(1.0) + ice_area) / domain_area
         raise ValueError(
@@ -168,8 +172,8 @@ def _shrink_factor(groups: Groups, ice_area: float, domain_area: float, radius: 
             f"leave at most {reached:.6g}; take a lower concentration or a smaller dilated_radius"
         )
     if excess(lowest) >= 0.0:  # sharp corners (radius 0), up to round-off
-        return float(lowest)
-    return float(brentq(excess, lowest, 1.0, xtol=1e-15, rtol=4.0 * np.finfo(float).eps))
+        return lowest
+    return bracketed_root(excess, lowest, 1.0, absolute=1e-15, relative=4.0 * EPSILON)
 
 
 def _touching(
