@@ -11,6 +11,7 @@ from dilatedem.errors import CaseError
 from dilatedem.field.placement import Disk, FloeField, HalfPlane, Obstacle, Region, equilibrium_height, ice_field
 from dilatedem.field.sizes import floe_count
 from dilatedem.geometry import outline as plan
+from dilatedem.geometry.floes import floe_shapes
 from dilatedem.geometry.polyhedron import convex_hull, prism
 from dilatedem.geometry.shapes import BodyShape, pack_hulls, pack_shapes
 from dilatedem.numerics.frames import matrix_from_quaternion, quaternion_from_rotation_vector
@@ -31,10 +32,9 @@ MOST_FACE_CORNERS = MOST_CORNERS // 2 - 1
 
 @dataclass(frozen=True, eq=False)
 class PlacedBody:
-    """A body at t = 0.
+    """An entry of the case's `[[body]]` list at t = 0.
 
-    outline: (k, 2) [m] as seen from above, world coordinates; plan_area [m2]; number: in the case's `[[body]]` list, None for a
-    floe that was generated.
+    outline: (k, 2) [m] as seen from above, world coordinates; plan_area [m2].
     """
 
     shape: BodyShape
@@ -42,16 +42,42 @@ class PlacedBody:
     orientation: np.ndarray  # (4,) unit quaternion, body to world
     outline: np.ndarray
     plan_area: float
-    number: int | None = None
 
 
 @dataclass(frozen=True, eq=False)
 class Scene:
-    """All bodies of a case in place, and its structures (those of the case, then the domain's walls)."""
+    """All n bodies of a case in place at t = 0, and its structures (those of the case, then the domain's walls).
 
-    bodies: list[PlacedBody]
+    Bodies are numbered from 0: those of the case's `[[body]]` list in their order, then the generated floes.
+    """
+
+    explicit: int  # bodies of the list
+    shapes: list[BodyShape]  # bodies of one topology together
+    order: np.ndarray  # (n,) number of each body, shape by shape
+    position: np.ndarray  # (n, 3) centroid, m
+    orientation: np.ndarray  # (n, 4) unit quaternion, body to world
+    outlines: plan.Outlines  # as seen from above, world coordinates, m
+    plan_area: np.ndarray  # (n,) m2
     structures: list[Structure]
     field: FloeField
+
+    @property
+    def count(self) -> int:
+        return len(self.order)
+
+    def volume(self) -> np.ndarray:
+        """(n,) of the dilated bodies [m3]."""
+        return self._in_order([np.reshape(shape.properties.volume, -1) for shape in self.shapes])
+
+    def unit_inertia(self) -> np.ndarray:
+        """(n, 3, 3) [m5] about the centroid, body frame, for unit density."""
+        return self._in_order([np.reshape(shape.properties.inertia, (-1, 3, 3)) for shape in self.shapes])
+
+    def _in_order(self, parts: list[np.ndarray]) -> np.ndarray:
+        values = np.concatenate(parts)
+        ordered = np.empty_like(values)
+        ordered[self.order] = values
+        return ordered
 
 
 def compose(case: Case) -> Scene:
@@ -59,10 +85,35 @@ def compose(case: Case) -> Scene:
     explicit = [_explicit_body(case, number, body) for number, body in enumerate(case.body)]
     try:
         field = _floe_field(case, explicit)
-        floes = [_floe(case, outline, area) for outline, area in zip(field.outlines, field.plan_area, strict=True)]
+        return _scene(case, explicit, field)
     except ValueError as fault:
         raise CaseError(f"the ice field cannot be built: {fault}") from fault
-    return Scene(explicit + floes, [*case.structure, *_walls(case)], field)
+
+
+def _scene(case: Case, explicit: list[PlacedBody], field: FloeField) -> Scene:
+    """Explicit bodies and floes in one numbering. Raises ValueError for a floe that has no shape or does not float."""
+    first = len(explicit)
+    position, orientation = np.zeros((first + len(field.outlines), 3)), np.zeros((first + len(field.outlines), 4))
+    orientation[:] = quaternion_from_rotation_vector(np.zeros(3))
+    for number, body in enumerate(explicit):
+        position[number], orientation[number] = body.position, body.orientation
+    shapes, order = [body.shape for body in explicit], [np.arange(first)]
+    for floes, shape, centroid in floe_shapes(field.outlines, case.ice.thickness, case.ice.dilated_radius):
+        order.append(first + floes)
+        shapes.append(shape)
+        position[order[-1]] = centroid
+        position[order[-1], 2] = _floating_height(case, shape, case.ice.density)
+    return Scene(
+        explicit=first,
+        shapes=shapes,
+        order=np.concatenate(order),
+        position=position,
+        orientation=orientation,
+        outlines=plan.Outlines.of([*(body.outline for body in explicit), *field.outlines]) if explicit else field.outlines,
+        plan_area=np.concatenate([[body.plan_area for body in explicit], field.plan_area]),
+        structures=[*case.structure, *_walls(case)],
+        field=field,
+    )
 
 
 def _periodic(case: Case) -> tuple[bool, bool]:
@@ -72,7 +123,7 @@ def _periodic(case: Case) -> tuple[bool, bool]:
 def _floe_field(case: Case, explicit: list[PlacedBody]) -> FloeField:
     """The generated floes of a case, clear of its structures and of its explicit bodies."""
     if case.field.source == "bodies":
-        return FloeField([], np.zeros(0), 1.0, 0.0, 0)
+        return FloeField(plan.Outlines.of([]), np.zeros(0), 1.0, 0.0, 0)
     size = case.domain.size
     count = case.field.floe_count or floe_count(size, case.field.concentration, case.field.floe_size)
     return ice_field(
@@ -113,13 +164,6 @@ def _walls(case: Case) -> list[PlaneStructure]:
     return walls
 
 
-def _floe(case: Case, outline: np.ndarray, plan_area: float) -> PlacedBody:
-    """A floe of the case's ice over an outer outline (k, 2) [m]; plan_area [m2] that of the dilated floe."""
-    shape, centroid = _floe_shape(outline, case.ice.thickness, case.ice.dilated_radius)
-    position = np.array([centroid[0], centroid[1], _floating_height(case, shape, case.ice.density)])
-    return PlacedBody(shape, position, quaternion_from_rotation_vector(np.zeros(3)), outline, float(plan_area))
-
-
 def _explicit_body(case: Case, number: int, body: Body) -> PlacedBody:
     """A [[body]] entry in its place at t = 0. Raises CaseError that names it."""
     try:
@@ -142,7 +186,7 @@ def _explicit_body(case: Case, number: int, body: Body) -> PlacedBody:
     corners = shape.outer.vertices @ matrix_from_quaternion(orientation).T + position
     seen = convex_hull(corners * [1.0, 1.0, 0.0]).vertices[:, :2]
     seen = seen if plan.area(seen) > 0.0 else seen[::-1]
-    return PlacedBody(shape, position, orientation, seen, float(plan.area(seen)), number)
+    return PlacedBody(shape, position, orientation, seen, float(plan.area(seen)))
 
 
 def _floe_shape(outline: np.ndarray, thickness: float, radius: float) -> tuple[BodyShape, np.ndarray]:
@@ -150,7 +194,7 @@ def _floe_shape(outline: np.ndarray, thickness: float, radius: float) -> tuple[B
     return BodyShape.of_core(prism(plan.erode(outline, radius), -half, half), radius)
 
 
-def _floating_height(case: Case, shape: BodyShape, density: float) -> float:
+def _floating_height(case: Case, shape: BodyShape, density: float) -> float | np.ndarray:
     return equilibrium_height(shape.outer, density, case.water.density) if case.water.enabled else 0.0
 
 
@@ -161,15 +205,16 @@ def build_model(case: Case, scene: Scene) -> Model:
     planes = [s for s in scene.structures if s.kind == "plane"]
     column = np.array([[0.0, 0.0, -PILE_HALF_LENGTH], [0.0, 0.0, PILE_HALF_LENGTH]])
     columns = [BodyShape.of_core(convex_hull(column), pile.radius)[0] for pile in piles]
-    shapes = [body.shape for body in scene.bodies]
     normals = [np.array(plane.normal) / np.linalg.norm(plane.normal) for plane in planes]
+    order = np.concatenate([scene.order, np.arange(scene.count, scene.count + len(columns))])
+    shapes = pack_shapes(scene.shapes + columns, normals, order)
     water, periodic = case.water, _periodic(case)
-    _require_one_image(case, scene, periodic)
+    _require_one_image(case, scene, shapes.reach[: scene.count], periodic)
     current = water.velocity if water.enabled else (0.0, 0.0)
     return Model(
-        floating=len(shapes),
-        shapes=pack_shapes(shapes + columns, normals),
-        hulls=pack_hulls(shapes),
+        floating=scene.count,
+        shapes=shapes,
+        hulls=pack_hulls(scene.shapes, scene.order),
         solids=_solids(case, scene, [*piles, *planes]),
         contact=ContactSetting(
             int(ContactModel[case.contact.model.upper()]), case.contact.damping, case.contact.friction, case.contact.stiffness_ratio
@@ -181,9 +226,9 @@ def build_model(case: Case, scene: Scene) -> Model:
     )  # fmt: skip
 
 
-def _require_one_image(case: Case, scene: Scene, periodic: tuple[bool, bool]) -> None:
-    """A pair of bodies may meet in one periodic image only. Raises CaseError where a period is too short for that."""
-    reaches = sorted((_reach(body.shape) for body in scene.bodies), reverse=True)
+def _require_one_image(case: Case, scene: Scene, reach: np.ndarray, periodic: tuple[bool, bool]) -> None:
+    """A pair of bodies, `reach` (n,) [m], may meet in one periodic image only. Raises CaseError where a period is too short."""
+    reaches = np.sort(reach)[::-1]
     partners = [*reaches[1:2], *(structure.radius for structure in scene.structures if structure.kind == "pile")]
     if not partners:
         return
@@ -196,10 +241,6 @@ def _require_one_image(case: Case, scene: Scene, periodic: tuple[bool, bool]) ->
             )
 
 
-def _reach(shape: BodyShape) -> float:
-    return float(np.linalg.norm(shape.core.vertices, axis=1).max()) + shape.radius
-
-
 def ordered_structures(scene: Scene) -> list[Structure]:
     """Structures in the order of their bodies: piles, then planes."""
     return sorted(scene.structures, key=lambda structure: structure.kind == "plane")
@@ -207,40 +248,44 @@ def ordered_structures(scene: Scene) -> list[Structure]:
 
 def _solids(case: Case, scene: Scene, structures: list[Structure]) -> Solids:
     """Masses and elasticity; structures are of infinite mass."""
-    count = len(scene.bodies) + len(structures)
+    count, bodies = scene.count + len(structures), scene.count
     mass, inverse_mass, compliance = np.zeros(count), np.zeros(count), np.zeros(count)
     inertia, inverse_inertia = np.zeros((count, 3, 3)), np.zeros((count, 3, 3))
-    for i, placed in enumerate(scene.bodies):
-        given = case.ice if placed.number is None else case.body[placed.number]
-        mass[i] = placed.shape.properties.volume * given.density
-        inertia[i] = placed.shape.properties.inertia * given.density
-        compliance[i] = (1.0 - given.poisson_ratio**2) / given.elastic_modulus
-        if placed.number is None or not case.body[placed.number].fixed:
-            inverse_mass[i] = 1.0 / mass[i]
-            inverse_inertia[i] = np.linalg.inv(inertia[i])
-    for i, structure in enumerate(structures, start=len(scene.bodies)):
-        compliance[i] = (1.0 - structure.poisson_ratio**2) / structure.elastic_modulus
+    density = np.full(bodies, case.ice.density)
+    free = np.ones(bodies, np.bool_)
+    compliance[:] = _compliance(case.ice)
+    for i, given in enumerate(case.body):
+        density[i], free[i], compliance[i] = given.density, not given.fixed, _compliance(given)
+    for i, structure in enumerate(structures, start=bodies):
+        compliance[i] = _compliance(structure)
+    mass[:bodies] = scene.volume() * density
+    inertia[:bodies] = scene.unit_inertia() * density[:, None, None]
+    moving = np.flatnonzero(free)
+    inverse_mass[moving] = 1.0 / mass[moving]
+    inverse_inertia[moving] = np.linalg.inv(inertia[moving])
     return Solids(inverse_mass, mass, inertia, inverse_inertia, compliance)
+
+
+def _compliance(material) -> float:
+    """A body's term of Liu 2015, Eq. (7) [1/Pa]."""
+    return (1.0 - material.poisson_ratio**2) / material.elastic_modulus
 
 
 def initial_bodies(case: Case, scene: Scene, model: Model) -> Bodies:
     """All bodies where and as fast as the case says."""
     structures = ordered_structures(scene)
-    bodies = bodies_at_rest(len(scene.bodies) + len(structures))
+    bodies = bodies_at_rest(scene.count + len(structures))
     ice_velocity = case.ice.initial_velocity
     if ice_velocity == "current":
         ice_velocity = (*case.water.velocity, 0.0) if case.water.enabled else (0.0, 0.0, 0.0)
-    for i, placed in enumerate(scene.bodies):
-        bodies.position[i], bodies.orientation[i] = placed.position, placed.orientation
-        if placed.number is None:
-            bodies.velocity[i] = ice_velocity
-            continue
-        given = case.body[placed.number]
+    bodies.position[: scene.count], bodies.orientation[: scene.count] = scene.position, scene.orientation
+    bodies.velocity[scene.explicit : scene.count] = ice_velocity
+    for i, given in enumerate(case.body):
         bodies.velocity[i], bodies.angular_velocity[i] = given.velocity, given.angular_velocity
         if not given.fixed:
-            turn = matrix_from_quaternion(placed.orientation)
+            turn = matrix_from_quaternion(scene.orientation[i])
             bodies.angular_momentum[i] = turn @ model.solids.inertia[i] @ turn.T @ given.angular_velocity
-    for i, structure in enumerate(structures, start=len(scene.bodies)):
+    for i, structure in enumerate(structures, start=scene.count):
         bodies.position[i] = structure.point if structure.kind == "plane" else (*structure.center, 0.0)
     bodies.middle_velocity[:] = bodies.velocity
     bodies.middle_angular_velocity[:] = bodies.angular_velocity

@@ -7,9 +7,8 @@ from pathlib import Path
 import numpy as np
 
 from dilatedem.case.schema import Case
-from dilatedem.composition import PlacedBody, compose
+from dilatedem.composition import Scene, compose
 from dilatedem.errors import CaseError
-from dilatedem.field.placement import FloeField
 from dilatedem.output.atomic import replacing
 from dilatedem.output.folder import holds_run
 from dilatedem.output.summary import write_json
@@ -30,19 +29,17 @@ def generate(case: Case, out: Path, *, overwrite: bool = False) -> dict:
             f"{out}: holds a run, which a new field could contradict; choose another folder (--out)"
         )
     scene = compose(case)
-    bodies, field = scene.bodies, scene.field
-    explicit = [body for body in bodies if body.number is not None]
-    facts = field_facts(case, field, explicit)
-    save_picture = _picture(case, bodies)
+    facts = field_facts(case, scene)
+    save_picture = _picture(case, scene)
 
     out.mkdir(parents=True, exist_ok=True)
-    size = np.sqrt([body.plan_area for body in bodies])
     write_shapes(
         out / "field.vtu",
-        [body.shape.outer for body in bodies],
-        np.reshape([body.position for body in bodies], (-1, 3)),
-        np.reshape([body.orientation for body in bodies], (-1, 4)),
-        {"body": np.arange(len(bodies)), "floe_size": size},
+        [shape.outer for shape in scene.shapes],
+        scene.position,
+        scene.orientation,
+        {"body": np.arange(scene.count), "floe_size": np.sqrt(scene.plan_area)},
+        order=scene.order,
     )
     with replacing(out / "field.png") as temporary:
         save_picture(temporary)
@@ -50,17 +47,18 @@ def generate(case: Case, out: Path, *, overwrite: bool = False) -> dict:
     return facts
 
 
-def field_facts(case: Case, field: FloeField, explicit: list[PlacedBody]) -> dict:
+def field_facts(case: Case, scene: Scene) -> dict:
     """What field.json says: counts, concentration, sizes (square roots of plan areas) and seed."""
     domain_area = math.prod(case.domain.size)
     generated = case.field.source == "voronoi"
-    areas = field.plan_area if generated else np.array([body.plan_area for body in explicit])
+    field = scene.field
+    areas = field.plan_area if generated else scene.plan_area
     size = np.sqrt(areas)
     return {
         "source": case.field.source,
         "seed": case.field.seed if generated else None,
         "count": len(areas),
-        "explicit_bodies": len(explicit),
+        "explicit_bodies": scene.explicit,
         "left_out_at_structures": field.left_out,
         "concentration_asked": case.field.concentration if generated else None,
         "concentration": field.concentration if generated else float(areas.sum() / domain_area),
@@ -76,7 +74,7 @@ def field_facts(case: Case, field: FloeField, explicit: list[PlacedBody]) -> dic
     }
 
 
-def _picture(case: Case, bodies: list[PlacedBody]) -> Callable[[Path], None]:
+def _picture(case: Case, placed: Scene) -> Callable[[Path], None]:
     """The plan of the field, floes coloured by size; call the result with a path to save it there as PNG."""
     # Imported here: matplotlib takes half a second, which a wrong case should not wait for.
     from dilatedem.post import canvas, plan
@@ -95,20 +93,20 @@ def _picture(case: Case, bodies: list[PlacedBody]) -> Callable[[Path], None]:
 
     @canvas.styled
     def draw() -> canvas.Drawing:
-        outlines = [body.outline for body in bodies]
+        outlines = list(placed.outlines)
         view = plan.choose_view(scene, [outlines])
         figure = canvas.new_figure(6.4, panel_height(view, 5.6))
         axes = figure.add_subplot()
         plan.dress(axes, scene, view, water=canvas.WATER)
         plan.draw_domain(axes, scene)
-        size = np.sqrt([body.plan_area for body in bodies])
+        size = np.sqrt(placed.plan_area)
         style = {"cmap": SIZE_MAP, "edgecolors": canvas.ICE_EDGE, "linewidths": 0.4}
         floes = plan.draw_floes(axes, scene, view, outlines, array=size, **style)
         plan.draw_structures(axes, scene, view)
         plan.draw_current(axes, scene)
         bar = figure.colorbar(floes, ax=axes, shrink=0.85, pad=0.02)
         bar.set_label("Floe size, root of the plan area (m)")
-        axes.set_title(_title(case, len(bodies)))
+        axes.set_title(_title(case, placed.count))
         return canvas.Drawing("field", "Ice field", "", figure)
 
     drawing = draw()

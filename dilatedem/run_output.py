@@ -67,7 +67,7 @@ class RunOutput:
     def _prepare(self, simulation, out: Path) -> None:
         self._simulation, self._out = simulation, out
         self._structures = ordered_structures(simulation.scene)
-        self._writer = SnapshotWriter([body.shape.outer for body in simulation.scene.bodies])
+        self._writer = SnapshotWriter([shape.outer for shape in simulation.scene.shapes], simulation.scene.order)
         self._began = time.perf_counter()
         self._checked: dict = {}  # what the check of the time step found
         output, pace = simulation.case.output, (simulation.dt, simulation.span)
@@ -264,15 +264,13 @@ class RunOutput:
             partners: ContactStatistics(loads.mode_steps[p], loads.mode_impulse[p], loads.mode_force[p], loads.mode_overlap[p])
             for p, partners in enumerate(("ice_ice", "ice_structure"))
         }
-        placed = scene.bodies
         count = simulation.model.floating
         write_run_h5(
             self._out / folder.RUN_ARCHIVE, maps, statistics,
             FloeTable(
-                body=np.arange(count), x0=np.array([b.position[0] for b in placed]), y0=np.array([b.position[1] for b in placed]),
-                plan_area=np.array([b.plan_area for b in placed]), mass=simulation.model.solids.mass[:count],
-                volume=np.array([b.shape.properties.volume for b in placed]),
-                vertices=np.array([len(b.shape.core.vertices) for b in placed]), outlines=[b.outline for b in placed],
+                body=np.arange(count), x0=scene.position[:, 0], y0=scene.position[:, 1], plan_area=scene.plan_area,
+                mass=simulation.model.solids.mass[:count], volume=scene.volume(),
+                vertices=np.diff(simulation.model.shapes.vertex_start)[:count], outlines=scene.outlines,
             ),
         )  # fmt: skip
 

@@ -84,18 +84,18 @@ class Simulation:
     def of_case(cls, case: Case, *, threads: int = 1) -> "Simulation":
         """A case at t = 0, its loads not evaluated yet. Raises CaseError for what only building it can tell."""
         scene = compose(case)
-        if not scene.bodies:
+        if not scene.count:
             raise CaseError("the case has no bodies: no floe is clear of the structures, and there is no [[body]]")
-        beyond = [n for n in (case.output.track if case.output.track != "all" else []) if n >= len(scene.bodies)]
+        beyond = [n for n in (case.output.track if case.output.track != "all" else []) if n >= scene.count]
         if beyond:
-            raise CaseError(f"output.track: there is no body {beyond[0]}; they are numbered from 0 to {len(scene.bodies) - 1}")
+            raise CaseError(f"output.track: there is no body {beyond[0]}; they are numbered from 0 to {scene.count - 1}")
         model = build_model(case, scene)
         bodies = initial_bodies(case, scene, model)
         critical = critical_step(model, bodies)
         dt = time_step(case, critical)
         span = free_span(case, dt)
         state = State(
-            bodies, empty_pairs(PAIRS_PER_BODY * len(scene.bodies) + 64), empty_ledger(),
+            bodies, empty_pairs(PAIRS_PER_BODY * scene.count + 64), empty_ledger(),
             empty_loads(*load_map_geometry(case, scene)), clock_at_start(), Totals(),
             Watch(dt, span) if case.time.error_check else None,
         )  # fmt: skip
@@ -167,17 +167,17 @@ def check(case: Case) -> dict:
     simulation = Simulation.of_case(case)
     steps, output = total_steps(case, simulation.dt), case.output
     solids, floating = simulation.model.solids, simulation.model.floating
-    floes = [body for body in simulation.scene.bodies if body.number is None]
-    areas = np.array([body.plan_area for body in floes])
-    rows = case.time.duration / output.force_interval * len(simulation.scene.structures)
+    scene = simulation.scene
+    areas = scene.plan_area[scene.explicit :]
+    rows = case.time.duration / output.force_interval * len(scene.structures)
     tracked = floating if output.track == "all" else len(output.track)
     snapshots = case.time.duration / output.snapshot_interval + 1 if output.snapshot_interval else 0
     size = 150 * rows + 130 * tracked * case.time.duration / output.track_interval + snapshots * (3e3 + 350 * floating)
     facts = {
-        "floes": len(floes),
-        "explicit bodies": len(simulation.scene.bodies) - len(floes),
-        "floes left out at structures": simulation.scene.field.left_out,
-        "structures": len(simulation.scene.structures),
+        "floes": len(areas),
+        "explicit bodies": scene.explicit,
+        "floes left out at structures": scene.field.left_out,
+        "structures": len(scene.structures),
         "mass, t": solids.mass[:floating].sum() / 1e3,
         "critical step, s": simulation.critical,
         "step, s": simulation.dt,
@@ -186,7 +186,7 @@ def check(case: Case) -> dict:
         "output, MB, about": size / 1e6,
     }
     if len(areas):
-        facts |= {"concentration": simulation.scene.field.concentration, "floe size, m": float(np.sqrt(areas.mean()))}
+        facts |= {"concentration": scene.field.concentration, "floe size, m": float(np.sqrt(areas.mean()))}
     return facts
 
 
@@ -295,7 +295,7 @@ def _load_checkpoint(out: Path, case: Case, simulation: Simulation) -> dict:
 def _headline(simulation: Simulation, steps: int, layer: str) -> str:
     ratio = simulation.dt / simulation.critical
     return (
-        f"{len(simulation.scene.bodies)} bodies, {steps} steps of {simulation.dt:.3g} s = {ratio:.3g} of the critical step "
+        f"{simulation.scene.count} bodies, {steps} steps of {simulation.dt:.3g} s = {ratio:.3g} of the critical step "
         f"({simulation.critical:.3g} s); {f'{simulation.threads} threads ({layer})' if layer else '1 thread'}"
     )
 

@@ -6,21 +6,25 @@ Each cell is shrunk about its centroid by one common factor (physics 7). What co
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cache
 from itertools import product
 
 import numpy as np
 import shapely
 from numpy.typing import ArrayLike
-from scipy.optimize import brentq
 
 from dilatedem.field.tessellation import voronoi_cells
 from dilatedem.geometry import outline as plan
 from dilatedem.geometry.polyhedron import Polyhedron
+from dilatedem.numerics.blocks import place
+from dilatedem.numerics.root import bracketed_root
 
 # A floe whose core vanishes when it is made smaller by this part counts as too small.
 VANISHING = 1e-12
+EPSILON = float(np.finfo(float).eps)
 
 
 @dataclass(frozen=True)
@@ -57,14 +61,14 @@ Groups = list[tuple[np.ndarray, np.ndarray]]  # cells (m,) of n sides and their 
 class FloeField:
     """Floes in plan.
 
-    outlines       outer outlines (n, 2) [m] in world coordinates, centroids inside a periodic domain
+    outlines       outer outlines (k, 2) [m] in world coordinates, centroids inside a periodic domain
     plan_area      (floes,) plan area of each dilated floe [m2]
     factor         by which the cells were shrunk
     concentration  dilated plan area of all floes, those left out included, over the area of the domain
     left_out       number of floes left out because they touched an obstacle
     """
 
-    outlines: list[np.ndarray]
+    outlines: plan.Outlines
     plan_area: np.ndarray
     factor: float
     concentration: float
@@ -91,7 +95,7 @@ def ice_field(
     if not 0.0 < concentration < 1.0:
         raise ValueError(f"concentration = {concentration:g}: must lie between 0 and 1")
     cells = voronoi_cells(size, count, periodic, seed)
-    groups = _by_sides(cells)
+    groups = cells.by_sides()
     domain_area = float(np.prod(size))
     factor = _shrink_factor(groups, concentration * domain_area, domain_area, dilated_radius)
     plan_area, _ = _dilated_areas(groups, count, factor, dilated_radius)
@@ -103,16 +107,15 @@ def ice_field(
             "take a smaller dilated_radius, larger floes, or another seed"
         )
 
-    outlines: list[np.ndarray] = [np.empty(0)] * count
+    outlines = plan.Outlines(np.empty_like(cells.points), cells.start)
     for index, corners in groups:
         middle = plan.centroid(corners)
         shrunk = middle[:, None] + factor * (corners - middle[:, None])
         home = np.where(periodic, -size * np.floor(middle / size + 0.5), 0.0)
-        for floe, outline in zip(index, shrunk + home[:, None], strict=True):
-            outlines[floe] = outline
+        place(outlines.points, cells.start[index], shrunk + home[:, None])
     touching = _touching(outlines, obstacles, size, periodic)
     return FloeField(
-        outlines=[outline for outline, touches in zip(outlines, touching, strict=True) if not touches],
+        outlines=outlines.where(~touching),
         plan_area=plan_area[~touching],
         factor=factor,
         concentration=float(plan_area.sum() / domain_area),
@@ -120,8 +123,8 @@ def ice_field(
     )
 
 
-def equilibrium_height(outer: Polyhedron, density: float, water_density: float) -> float:
-    """z [m] of the centroid of a floe that floats flat: exact for a right prism centred on the origin.
+def equilibrium_height(outer: Polyhedron, density: float, water_density: float) -> float | np.ndarray:
+    """z [m] of the centroid of a floe that floats flat: exact for a right prism centred on the origin; (m,) for a stack.
 
     outer is the sharp outer polyhedron in body coordinates; its draft is the part density / water_density of
     its height. Raises ValueError for ice too heavy to float.
@@ -130,18 +133,8 @@ def equilibrium_height(outer: Polyhedron, density: float, water_density: float) 
         raise ValueError(
             f"density = {density:g} kg/m3: must be below that of the water, {water_density:g} kg/m3, to float"
         )
-    bottom, top = outer.vertices[:, 2].min(), outer.vertices[:, 2].max()
-    return float(-bottom - (top - bottom) * density / water_density)
-
-
-def _by_sides(cells: list[np.ndarray]) -> Groups:
-    """The cells sorted by their number of sides, so that they can be worked as arrays."""
-    sides = np.array([len(cell) for cell in cells])
-    groups = []
-    for n in np.unique(sides):
-        index = np.flatnonzero(sides == n)
-        groups.append((index, np.stack([cells[i] for i in index])))
-    return groups
+    bottom, top = outer.vertices[..., 2].min(axis=-1), outer.vertices[..., 2].max(axis=-1)
+    return -bottom - (top - bottom) * density / water_density
 
 
 def _dilated_areas(groups: Groups, count: int, factor: float, radius: float) -> tuple[np.ndarray, np.ndarray]:
@@ -166,11 +159,12 @@ def _shrink_factor(groups: Groups, ice_area: float, domain_area: float, radius: 
     """The factor at which the dilated floes cover `ice_area` [m2] together."""
     count = sum(len(index) for index, _ in groups)
 
+    @cache  # the ends of the range are asked for more than once
     def excess(factor: float) -> float:
         return float(_dilated_areas(groups, count, factor, radius)[0].sum()) - ice_area
 
     # Sharp outlines cover factor^2 of the domain, and round corners only take away from that.
-    lowest = np.sqrt(ice_area / domain_area)
+    lowest = math.sqrt(ice_area / domain_area)
     if excess(1.0) <= 0.0:
         reached = (excess(1.0) + ice_area) / domain_area
         raise ValueError(
@@ -178,17 +172,15 @@ def _shrink_factor(groups: Groups, ice_area: float, domain_area: float, radius: 
             f"leave at most {reached:.6g}; take a lower concentration or a smaller dilated_radius"
         )
     if excess(lowest) >= 0.0:  # sharp corners (radius 0), up to round-off
-        return float(lowest)
-    return float(brentq(excess, lowest, 1.0, xtol=1e-15, rtol=4.0 * np.finfo(float).eps))
+        return lowest
+    return bracketed_root(excess, lowest, 1.0, absolute=1e-15, relative=4.0 * EPSILON)
 
 
 def _touching(
-    outlines: list[np.ndarray], obstacles: Sequence[Obstacle], size: np.ndarray, periodic: Sequence[bool]
+    outlines: plan.Outlines, obstacles: Sequence[Obstacle], size: np.ndarray, periodic: Sequence[bool]
 ) -> np.ndarray:
     """(floes,) whether an outline touches or overlaps an obstacle or a periodic image of one."""
-    sides = [len(outline) for outline in outlines]
-    corners = np.concatenate(outlines)
-    start = np.concatenate(([0], np.cumsum(sides)[:-1]))
+    corners, start, sides = outlines.points, outlines.start[:-1], outlines.sides
     touching = np.zeros(len(outlines), dtype=bool)
     polygons = shapely.polygons(shapely.linearrings(corners, indices=np.repeat(np.arange(len(sides)), sides)))
     for obstacle in obstacles:

@@ -15,6 +15,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.spatial import Voronoi
 
+from dilatedem.geometry.outline import Outlines
+from dilatedem.numerics.blocks import offsets
+
 # Width of the belt of copies around the domain at the first try, in mean spacings of the points. Too narrow a
 # belt is noticed and widened, so this only sets the cost.
 BELT = 4.0
@@ -26,7 +29,7 @@ RESOLUTION = 1e-9
 
 def voronoi_cells(
     size: ArrayLike, count: int, periodic: Sequence[bool], seed: int | np.random.Generator
-) -> list[np.ndarray]:
+) -> Outlines:
     """Voronoi cells of `count` points drawn uniformly in the domain.
 
     size      (2,) [m], the domain, centred on the origin
@@ -42,7 +45,7 @@ def voronoi_cells(
     return cells_of_points(points, size, periodic)
 
 
-def cells_of_points(points: np.ndarray, size: np.ndarray, periodic: Sequence[bool]) -> list[np.ndarray]:
+def cells_of_points(points: np.ndarray, size: np.ndarray, periodic: Sequence[bool]) -> Outlines:
     """The cells of given `points` (n, 2) [m] inside the domain; see voronoi_cells."""
     spacing = float(np.sqrt(np.prod(size) / len(points)))
     belt = BELT * spacing
@@ -63,8 +66,7 @@ def cells_of_points(points: np.ndarray, size: np.ndarray, periodic: Sequence[boo
     cell = np.repeat(np.arange(len(points)), np.diff(start))
     ahead = _next_in_cell(start)
     distinct = np.linalg.norm(position[ahead] - position, axis=1) > RESOLUTION * spacing
-    split = np.cumsum(np.bincount(cell[distinct], minlength=len(points)))[:-1]
-    return np.split(position[distinct], split)
+    return Outlines(position[distinct], offsets(np.bincount(cell[distinct], minlength=len(points))))
 
 
 def _with_copies(points: np.ndarray, size: np.ndarray, periodic: Sequence[bool], belt: float) -> np.ndarray:
@@ -87,7 +89,7 @@ def _with_copies(points: np.ndarray, size: np.ndarray, periodic: Sequence[bool],
 def _sorted_corners(diagram: Voronoi, count: int) -> tuple[np.ndarray, np.ndarray]:
     """Voronoi vertices (k,) around each of the first `count` points, counter-clockwise, and starts."""
     regions = [diagram.regions[r] for r in diagram.point_region[:count]]
-    start = np.concatenate(([0], np.cumsum([len(region) for region in regions])))
+    start = offsets([len(region) for region in regions])
     corner = np.fromiter((v for region in regions for v in region), dtype=np.int64, count=start[-1])
     cell = np.repeat(np.arange(count), np.diff(start))
     away = diagram.vertices[corner] - diagram.points[cell]

@@ -6,6 +6,8 @@ outwards by the dilated radius, and the volume that sharp edges add is taken bac
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy.spatial import HalfspaceIntersection, QhullError
@@ -36,10 +38,31 @@ def outer_polyhedron(
         sharp = _round_hull(core, radius)
     elif radius == 0.0:
         sharp = core
+    elif _is_prism(core):
+        ((_, sharp),) = _offset_prisms(core.stacked(), radius)
+        sharp = sharp.member(0)
     else:
-        sharp = _offset_prism(core, radius) or _offset_solid(core, radius)
+        sharp = _offset_solid(core, radius)
+    return _of_volume(sharp, volume).translated(centre)
+
+
+def outer_prisms(cores: Polyhedron, radius: float, volume: np.ndarray) -> Iterator[tuple[np.ndarray, Polyhedron]]:
+    """`outer_polyhedron` about the origin for a stack of m prisms, by the topology of what comes out (acute corners are bevelled).
+
+    volume (m,) [m3]. Yields which of the cores (l,), and their outer shapes, a stack of l.
+    """
+    offset = [(np.arange(len(volume)), cores)] if radius == 0.0 else _offset_prisms(cores, radius)
+    for which, sharp in offset:
+        yield which, _of_volume(sharp, volume[which])
+
+
+def _of_volume(sharp: Polyhedron, volume: float | np.ndarray) -> Polyhedron:
+    """Moved to have its centroid at the origin, then scaled to the given volume."""
     sharp = sharp.translated(-centroid(sharp))
-    return sharp.scaled((volume / polyhedron_volume(sharp)) ** (1.0 / 3.0)).translated(centre)
+    ratio = np.asarray(volume / polyhedron_volume(sharp))
+    # power by power: NumPy's own, over an array, rounds the last digit in another way on some machines
+    factor = np.array([x ** (1.0 / 3.0) for x in ratio.ravel().tolist()])
+    return sharp.scaled(factor.reshape(ratio.shape))
 
 
 def _round_hull(core: Polyhedron, radius: float) -> Polyhedron:
@@ -72,24 +95,25 @@ def _round_hull(core: Polyhedron, radius: float) -> Polyhedron:
     return assemble(vertices, faces)
 
 
-def _offset_prism(core: Polyhedron, radius: float) -> Polyhedron | None:
-    """Plates and right prisms (every floe), by their outline; None for any other core.
-
-    A core is such a prism when its first two faces are opposite and all others square to them.
-    """
+def _is_prism(core: Polyhedron) -> bool:
+    """Whether a core is a plate or a right prism: its first two faces opposite, and all others square to them."""
     up = core.normals[1]
-    sides = core.normals[2:]
-    if core.normals[0] @ up > SQUARE - 1.0 or (np.abs(sides @ up) > SQUARE).any():
-        return None
-    if core.dimension == 3 and len(core.faces) != len(core.faces[0]) + 2:
-        return None
-    across = np.cross(np.eye(3)[np.abs(up).argmin()], up)
-    across /= np.linalg.norm(across)
-    frame = np.array([across, np.cross(up, across), up])
-    local = core.vertices @ frame.T
-    loop = plan.mitred(local[core.faces[1], :2], radius)
-    offset = prism(loop, local[:, 2].min() - radius, local[:, 2].max() + radius)
-    return Polyhedron(offset.vertices @ frame, offset.edges, offset.faces, offset.normals @ frame)
+    if core.normals[0] @ up > SQUARE - 1.0 or (np.abs(core.normals[2:] @ up) > SQUARE).any():
+        return False
+    return core.dimension == 2 or len(core.faces) == len(core.faces[0]) + 2
+
+
+def _offset_prisms(cores: Polyhedron, radius: float) -> Iterator[tuple[np.ndarray, Polyhedron]]:
+    """A stack of plates or right prisms (every floe) by their outlines; which of them, and their offset shapes."""
+    up = cores.normals[:, 1]
+    across = np.cross(np.eye(3)[np.abs(up).argmin(axis=1)], up)
+    across /= np.linalg.norm(across, axis=1, keepdims=True)
+    frame = np.stack((across, np.cross(up, across), up), axis=1)
+    local = cores.vertices @ np.swapaxes(frame, 1, 2)
+    low, high = local[..., 2].min(axis=1) - radius, local[..., 2].max(axis=1) + radius
+    for which, loop in plan.mitred_together(local[:, cores.faces[1], :2], radius):
+        offset, turn = prism(loop, low[which], high[which]), frame[which]
+        yield which, Polyhedron(offset.vertices @ turn, offset.edges, offset.faces, offset.normals @ turn)
 
 
 def _offset_solid(core: Polyhedron, radius: float) -> Polyhedron:

@@ -7,11 +7,13 @@ asked for, so the result is exact. Many outlines of one number of sides are work
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
+
+from dilatedem.numerics.blocks import offsets, take
 
 # Relative to the size of the outline: corners nearer than this to each other, or to the line through their
 # neighbours, are dropped, and so are sides that erosion leaves shorter; a corner that lies inwards by more
@@ -19,6 +21,52 @@ from numpy.typing import ArrayLike
 RESOLUTION = 1e-8
 # A mitred corner that would reach further than this many offsets from its origin is bevelled there.
 MITRE_LIMIT = 3.0
+
+
+class Outlines(Sequence):
+    """Many outlines in one array, read as a list of arrays (k, 2) [m].
+
+    points  (p, 2) [m] corners of all outlines, one after the other
+    start   (n + 1,) where the corners of each begin; the last entry is p
+    """
+
+    def __init__(self, points: np.ndarray, start: np.ndarray):
+        self.points, self.start = points, start
+
+    @classmethod
+    def of(cls, outlines: Iterable[np.ndarray]) -> Outlines:
+        """The same outlines in one array."""
+        outlines = list(outlines)
+        return cls(np.concatenate([np.zeros((0, 2)), *outlines]), offsets([len(outline) for outline in outlines]))
+
+    def __len__(self) -> int:
+        return len(self.start) - 1
+
+    def __getitem__(self, i):
+        if isinstance(i, slice):
+            return [self[k] for k in range(*i.indices(len(self)))]
+        if not -len(self) <= i < len(self):
+            raise IndexError(i)
+        i %= len(self)
+        return self.points[self.start[i] : self.start[i + 1]]
+
+    @property
+    def sides(self) -> np.ndarray:
+        """(n,) number of corners of each outline."""
+        return np.diff(self.start)
+
+    def where(self, wanted: np.ndarray) -> Outlines:
+        """Those outlines that are `wanted` (n,), a mask."""
+        return Outlines(self.points[np.repeat(wanted, self.sides)], offsets(self.sides[wanted]))
+
+    def by_sides(self) -> list[tuple[np.ndarray, np.ndarray]]:
+        """Outlines (m,) of k sides and their corners (m, k, 2), for each k, so that they can be worked as arrays."""
+        sides = self.sides
+        groups = []
+        for k in np.unique(sides):
+            index = np.flatnonzero(sides == k)
+            groups.append((index, take(self.points, self.start[index], k)))
+        return groups
 
 
 def prepare(outline: ArrayLike) -> np.ndarray:
@@ -132,22 +180,32 @@ def mitred(outline: np.ndarray, distance: float) -> np.ndarray:
     Corners so acute that they would reach beyond MITRE_LIMIT * distance are bevelled there, so a needle of a
     floe keeps a sensible outline.
     """
-    side = np.roll(outline, -1, axis=0) - outline
-    direction = side / np.linalg.norm(side, axis=1, keepdims=True)
-    moved = []
-    for corner, before, after in zip(outline, np.roll(direction, 1, axis=0), direction, strict=True):
-        outward_before, outward_after = np.array((before[1], -before[0])), np.array((after[1], -after[0]))
-        cosine = before @ after
-        half = np.sqrt(max(0.5 * (1.0 + cosine), 0.0))  # cos(turn/2), the reach of a mitre being 1/half
-        if half * MITRE_LIMIT >= 1.0:
-            moved.append(corner + distance * (outward_before + outward_after) / (1.0 + cosine))
-        else:
-            run = distance * (MITRE_LIMIT - half) / np.sqrt(1.0 - half**2)
-            moved += [
-                corner + distance * outward_before + run * before,
-                corner + distance * outward_after - run * after,
-            ]
-    return np.array(moved)
+    ((_, moved),) = mitred_together(np.asarray(outline)[None], distance)
+    return moved[0]
+
+
+def mitred_together(outlines: np.ndarray, distance: float) -> Iterator[tuple[np.ndarray, np.ndarray]]:
+    """`mitred` for many outlines (m, n, 2) at once: which ones (l,), and their corners (l, k, 2), by the corners bevelled."""
+    side = np.roll(outlines, -1, axis=1) - outlines
+    after = side / np.linalg.norm(side, axis=2, keepdims=True)
+    before = np.roll(after, 1, axis=1)
+    outward = np.stack((before[..., 1], -before[..., 0]), axis=-1), np.stack((after[..., 1], -after[..., 0]), axis=-1)
+    cosine = np.vecdot(before, after)
+    half = np.sqrt(np.maximum(0.5 * (1.0 + cosine), 0.0))  # cos(turn/2), the reach of a mitre being 1/half
+    acute = half * MITRE_LIMIT < 1.0
+    for pattern in np.unique(acute, axis=0):
+        which = np.flatnonzero((acute == pattern).all(axis=1))
+        moved = []
+        for k, bevelled in enumerate(pattern):
+            corner, ahead, behind = outlines[which, k], after[which, k], before[which, k]
+            left, right = outward[0][which, k], outward[1][which, k]
+            if not bevelled:
+                moved.append(corner + distance * (left + right) / (1.0 + cosine[which, k])[:, None])
+                continue
+            reach = half[which, k]
+            run = (distance * (MITRE_LIMIT - reach) / np.sqrt(1.0 - reach**2))[:, None]
+            moved += [corner + distance * left + run * behind, corner + distance * right - run * ahead]
+        yield which, np.stack(moved, axis=1)
 
 
 def _without_side(

@@ -3,6 +3,9 @@
 A core of dimension 3 is an ordinary convex polyhedron. The smaller ones share its form, so that whoever walks
 over vertices, edges and faces needs no special case: a flat polygon has two faces (one loop, run in both
 directions), a segment one edge and no face, a point one vertex and nothing else.
+
+Many bodies of one topology can be worked together: a *stack* of m bodies is a polyhedron whose vertices and normals have a first
+axis of length m, while edges and faces stand once for all. A field of 100 000 floes is some dozens of stacks.
 """
 
 from __future__ import annotations
@@ -22,12 +25,12 @@ RESOLUTION = 1e-8
 
 @dataclass(frozen=True, eq=False)
 class Polyhedron:
-    """A convex polyhedron of dimension 0 to 3.
+    """A convex polyhedron of dimension 0 to 3, or a stack of m of them.
 
-    vertices (n, 3) [m]
-    edges    (m, 2) vertex indices, smaller first, each edge once
+    vertices (n, 3) [m]; of a stack (m, n, 3)
+    edges    (e, 2) vertex indices, smaller first, each edge once
     faces    vertex loops, counter-clockwise seen from outside
-    normals  (f, 3) outward unit normals, one per face
+    normals  (f, 3) outward unit normals, one per face; of a stack (m, f, 3)
     """
 
     vertices: np.ndarray
@@ -43,12 +46,21 @@ class Polyhedron:
         return 2 if self.faces else len(self.edges)
 
     def translated(self, shift: ArrayLike) -> Polyhedron:
-        """The same body moved by `shift` (3,) [m]."""
-        return replace(self, vertices=self.vertices + np.asarray(shift, dtype=float))
+        """The same body moved by `shift` (3,) [m]; of a stack each by its own, (m, 3), or all by one."""
+        return replace(self, vertices=self.vertices + np.asarray(shift, dtype=float)[..., None, :])
 
-    def scaled(self, factor: float) -> Polyhedron:
-        """The same body scaled by `factor` > 0 about the origin."""
-        return replace(self, vertices=self.vertices * factor)
+    def scaled(self, factor: ArrayLike) -> Polyhedron:
+        """The same body scaled by `factor` > 0 about the origin; of a stack each by its own, (m,), or all by one."""
+        return replace(self, vertices=self.vertices * np.asarray(factor, dtype=float)[..., None, None])
+
+    def stacked(self) -> Polyhedron:
+        """A stack; a single body as a stack of one."""
+        single = self.vertices.ndim == 2
+        return replace(self, vertices=self.vertices[None], normals=self.normals[None]) if single else self
+
+    def member(self, which) -> Polyhedron:
+        """Of a stack: one body by its index, a smaller stack by a slice or an array of indices."""
+        return replace(self, vertices=self.vertices[which], normals=self.normals[which])
 
 
 def convex_hull(points: ArrayLike) -> Polyhedron:
@@ -85,45 +97,52 @@ def convex_hull(points: ArrayLike) -> Polyhedron:
     return _solid_hull(points, local)
 
 
-def prism(outline: ArrayLike, z_bottom: float, z_top: float) -> Polyhedron:
+def prism(outline: ArrayLike, z_bottom: ArrayLike, z_top: ArrayLike) -> Polyhedron:
     """Vertical right prism over a convex counter-clockwise `outline` (n, 2) [m] between two heights [m].
 
     Vertices: bottom ring 0..n-1, then top ring n..2n-1. Faces: 0 the bottom, 1 the top, then one per side in
-    the order of the outline. Equal heights give a flat polygon. Raises ValueError when the heights are in the
-    wrong order.
+    the order of the outline. Equal heights give a flat polygon. Outlines (m, n, 2) give a stack,
+    their heights being (m,) or common to all. Raises ValueError when the heights are in the wrong order.
     """
     outline = np.asarray(outline, dtype=float)
-    count = len(outline)
-    if outline.ndim != 2 or outline.shape[1] != 2 or count < 3:
+    if outline.ndim not in (2, 3) or outline.shape[-1] != 2 or outline.shape[-2] < 3:
         raise ValueError(f"outline has shape {outline.shape}: must be (n, 2) with at least three points")
+    count = outline.shape[-2]
     ring = np.arange(count)
     # round-off in t/2 - r may put the top a hair below the bottom of a floe that is just two radii thick
-    flat = RESOLUTION * float(np.ptp(outline, axis=0).max())
-    if not z_top >= z_bottom - flat:
+    flat = RESOLUTION * float(np.ptp(outline, axis=-2).max())
+    height = np.subtract(z_top, z_bottom)
+    if not np.all(height >= -flat):
         raise ValueError(f"the top of a prism ({z_top} m) must not lie below its bottom ({z_bottom} m)")
-    if z_top - z_bottom <= flat:
-        middle = np.column_stack((outline, np.full(count, 0.5 * (z_bottom + z_top))))
-        return assemble(middle, (ring[::-1].copy(), ring))
-    bottom = np.column_stack((outline, np.full(count, float(z_bottom))))
+    if np.all(height <= flat):
+        return assemble(_at_height(outline, 0.5 * np.add(z_bottom, z_top)), (ring[::-1].copy(), ring))
     following = np.roll(ring, -1)
     sides = np.column_stack((ring, following, following + count, ring + count))
-    top = np.column_stack((outline, np.full(count, float(z_top))))
-    return assemble(np.concatenate((bottom, top)), (ring[::-1].copy(), ring + count, *sides))
+    rings = np.concatenate((_at_height(outline, z_bottom), _at_height(outline, z_top)), axis=-2)
+    return assemble(rings, (ring[::-1].copy(), ring + count, *sides))
+
+
+def _at_height(outline: np.ndarray, z: ArrayLike) -> np.ndarray:
+    """Points (..., n, 2) in plan as points (..., n, 3) at a height, of its own for each body of a stack."""
+    points = np.empty((*outline.shape[:-1], 3))
+    points[..., :2] = outline
+    points[..., 2] = np.asarray(z, dtype=float)[..., None]
+    return points
 
 
 def assemble(vertices: ArrayLike, faces: Sequence[np.ndarray]) -> Polyhedron:
-    """A polyhedron of known faces: vertices (n, 3) [m] and loops, counter-clockwise seen from outside.
+    """A polyhedron of known faces: vertices (n, 3) [m] and loops, counter-clockwise seen from outside; (m, n, 3) for a stack.
 
     One vertex or two need no faces, a flat polygon two. Raises ValueError unless the loops close into one
     surface.
     """
     vertices = np.array(vertices, dtype=float)
+    *stack, count, _ = vertices.shape
     if not faces:
-        edges = np.array([[0, 1]], dtype=np.int64) if len(vertices) == 2 else np.empty((0, 2), dtype=np.int64)
-        return Polyhedron(vertices, edges, (), np.empty((0, 3)))
+        edges = np.array([[0, 1]], dtype=np.int64) if count == 2 else np.empty((0, 2), dtype=np.int64)
+        return Polyhedron(vertices, edges, (), np.empty((*stack, 0, 3)))
     loops = tuple(np.asarray(f, dtype=np.int64) for f in faces)
     start, end, face = _directed_edges(loops)
-    count = len(vertices)
     forward = np.sort((start * count + end)[start < end])
     backward = np.sort((end * count + start)[start > end])
     closed = len(forward) == len(backward) and (forward == backward).all() and (np.diff(forward) > 0).all()
@@ -132,13 +151,26 @@ def assemble(vertices: ArrayLike, faces: Sequence[np.ndarray]) -> Polyhedron:
     edges = np.column_stack(np.divmod(forward, count))
 
     # Newell's normal: twice the area vector of the loop, taken about its first vertex to keep the digits
-    base = vertices[np.array([f[0] for f in loops])][face]
-    area_vector = np.zeros((len(loops), 3))
-    np.add.at(area_vector, face, np.cross(vertices[start] - base, vertices[end] - base))
-    length = np.linalg.norm(area_vector, axis=1, keepdims=True)
+    base = rows(vertices, np.array([f[0] for f in loops])[face])
+    area_vector = np.zeros((*stack, len(loops), 3))
+    add_rows(area_vector, face, np.cross(rows(vertices, start) - base, rows(vertices, end) - base))
+    length = np.linalg.norm(area_vector, axis=-1, keepdims=True)
     if not (length > 0.0).all():
         raise ValueError("a face has no area: the points are too close to degenerate")
     return Polyhedron(vertices, edges, loops, area_vector / length)
+
+
+def rows(values: np.ndarray, which: np.ndarray) -> np.ndarray:
+    """values[..., which, :], laid out in this order in memory; indexing itself may put the stack last, which is slower and rounds
+    sums in another order than for a single body.
+    """
+    return np.take(values, which, axis=-2)
+
+
+def add_rows(total: np.ndarray, row: np.ndarray, added: np.ndarray) -> None:
+    """total[..., row[k], :] += added[..., k, :] for one k after the other, in place: `np.add.at` for all bodies of a stack."""
+    for k, r in enumerate(row):
+        total[..., r, :] += added[..., k, :]
 
 
 def edge_faces(body: Polyhedron) -> np.ndarray:
@@ -165,20 +197,25 @@ def triangles(body: Polyhedron) -> tuple[np.ndarray, np.ndarray]:
     return np.concatenate(fans), np.repeat(np.arange(len(fans)), [len(fan) for fan in fans])
 
 
-def volume(body: Polyhedron) -> float:
-    """Volume [m3]; zero for a body of dimension below 3."""
+def volume(body: Polyhedron) -> float | np.ndarray:
+    """Volume [m3]; zero for a body of dimension below 3. Of a stack (m,)."""
     if body.dimension < 3:
-        return 0.0
-    corner = (body.vertices - body.vertices.mean(axis=0))[triangles(body)[0]]
-    return float(np.linalg.det(corner).sum() / 6.0)
+        return np.zeros(body.vertices.shape[:-2])[()]
+    corner = rows(body.vertices - body.vertices.mean(axis=-2, keepdims=True), triangles(body)[0])
+    return np.linalg.det(corner).sum(axis=-1) / 6.0
 
 
 def centroid(body: Polyhedron) -> np.ndarray:
-    """Centroid (3,) [m] of a body of dimension 3."""
-    reference = body.vertices.mean(axis=0)
-    corner = (body.vertices - reference)[triangles(body)[0]]
+    """Centroid (3,) [m] of a body of dimension 3; of a stack (m, 3)."""
+    reference = body.vertices.mean(axis=-2)
+    corner = rows(body.translated(-reference).vertices, triangles(body)[0])
     weight = np.linalg.det(corner)
-    return reference + weight @ corner.sum(axis=1) / (4.0 * weight.sum())
+    return reference + weighted(weight, corner.sum(axis=-2)) / (4.0 * weight.sum(axis=-1))[..., None]
+
+
+def weighted(weight: np.ndarray, vectors: np.ndarray) -> np.ndarray:
+    """Sum over k of weight (..., k) times vectors (..., k, 3), for each body of a stack."""
+    return np.matmul(weight[..., None, :], vectors)[..., 0, :]
 
 
 def _directed_edges(faces: tuple[np.ndarray, ...]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

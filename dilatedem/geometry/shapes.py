@@ -4,6 +4,7 @@ A contact sees the *core* of a body (vertices, edges, faces) and subtracts the d
 the sharp outer polyhedron. Vertices, faces and loops of all bodies stand one after the other; `*_start` says where a body's begin.
 """
 
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from enum import IntEnum
 from typing import NamedTuple
@@ -12,7 +13,8 @@ import numpy as np
 
 from dilatedem.geometry.mass import SolidProperties, dilated_solid
 from dilatedem.geometry.outer import outer_polyhedron
-from dilatedem.geometry.polyhedron import Polyhedron
+from dilatedem.geometry.packing import numbered, pack_neighbours, pack_polyhedra
+from dilatedem.geometry.polyhedron import Polyhedron, rows
 
 
 class Kind(IntEnum):
@@ -24,12 +26,17 @@ class Kind(IntEnum):
 
 @dataclass(frozen=True)
 class BodyShape:
-    """One body's shape in its own frame, origin at the centroid of the dilated solid."""
+    """Shape of one body in its own frame, origin at the centroid of the dilated solid; or of a stack of bodies of one topology."""
 
     core: Polyhedron
     radius: float  # dilated radius, m
     outer: Polyhedron  # sharp outer polyhedron of the same volume, m
     properties: SolidProperties  # of the dilated solid, unit density
+
+    @property
+    def count(self) -> int:
+        """Bodies of this shape: 1, or those of the stack."""
+        return len(self.core.stacked().vertices)
 
     @classmethod
     def of_core(cls, core: Polyhedron, radius: float) -> tuple["BodyShape", np.ndarray]:
@@ -72,100 +79,96 @@ class Hulls(NamedTuple):
     effective_radius: np.ndarray  # (m,) mean distance of the outer vertices from the centroid, m: r_eff of Liu 2015, Eq. (27)
 
 
-def _offsets(counts) -> np.ndarray:
-    return np.concatenate([[0], np.cumsum(counts)]).astype(np.int64)
+def pack_shapes(shapes: Sequence[BodyShape], planes: Sequence[np.ndarray], order: np.ndarray | None = None) -> Shapes:
+    """Pack the convex bodies, then half spaces with the given outward normals (3,) behind them.
 
-
-def _loops(polyhedra: list[Polyhedron], vertex_start: np.ndarray):
-    """face_start, loop_start and loop (with packed vertex numbers) of a list of polyhedra."""
-    face_start = _offsets([len(p.faces) for p in polyhedra])
-    loops = [np.asarray(face) + start for p, start in zip(polyhedra, vertex_start, strict=False) for face in p.faces]
-    loop = np.concatenate(loops).astype(np.int64) if loops else np.zeros(0, np.int64)
-    return face_start, _offsets([len(face) for face in loops]), loop
-
-
-def pack_shapes(shapes: list[BodyShape], planes: list[np.ndarray]) -> Shapes:
-    """Pack the convex bodies, then half spaces with the given outward normals (3,) behind them."""
+    order  number of each convex body, shape by shape, of a stack one after the other; as they come unless given
+    """
     cores = [shape.core for shape in shapes]
-    count = len(cores) + len(planes)
-    vertex_start = _offsets([len(core.vertices) for core in cores] + [0] * len(planes))
-    face_start, loop_start, loop = _loops(cores, vertex_start)
-    neighbours: list[list[int]] = [[] for _ in range(vertex_start[-1])]
-    for core, start in zip(cores, vertex_start, strict=False):
-        for i, j in core.edges:
-            neighbours[start + i].append(start + j)
-            neighbours[start + j].append(start + i)
-    normals = [core.normals.reshape(-1, 3) for core in cores]
-    reach = [np.linalg.norm(shape.core.vertices, axis=1).max() + shape.radius for shape in shapes]
-    plane_normal = np.zeros((count, 3))
-    plane_normal[len(cores):] = np.reshape(planes, (-1, 3))
+    packed = pack_polyhedra(cores, order)
+    neighbour_start, neighbour = pack_neighbours(cores, packed.vertex_start, order)
+    convex, count = len(packed.vertex_start) - 1, len(packed.vertex_start) - 1 + len(planes)
+    radius, reach, plane_normal = np.zeros(count), np.zeros(count), np.zeros((count, 3))
+    for shape, number in _numbered_shapes(shapes, order):
+        radius[number] = shape.radius
+        reach[number] = np.linalg.norm(shape.core.stacked().vertices, axis=-1).max(axis=-1) + shape.radius
+    plane_normal[convex:] = np.reshape(planes, (-1, 3))
     return Shapes(
-        kind=np.array([Kind.CONVEX] * len(cores) + [Kind.HALF_SPACE] * len(planes), np.int64),
-        radius=np.array([shape.radius for shape in shapes] + [0.0] * len(planes)),
-        reach=np.array(reach + [0.0] * len(planes)),
-        vertex_start=vertex_start,
-        vertex=np.concatenate([core.vertices for core in cores] + [np.zeros((0, 3))]),
-        neighbour_start=_offsets([len(near) for near in neighbours]),
-        neighbour=np.array([j for near in neighbours for j in near], np.int64),
-        face_start=np.concatenate([face_start, np.full(len(planes), face_start[-1])]),
-        face_normal=np.concatenate(normals + [np.zeros((0, 3))]),
-        loop_start=loop_start,
-        loop=loop,
+        kind=np.array([Kind.CONVEX] * convex + [Kind.HALF_SPACE] * len(planes), np.int64),
+        radius=radius,
+        reach=reach,
+        vertex_start=_with_empty(packed.vertex_start, len(planes)),
+        vertex=packed.vertex,
+        neighbour_start=neighbour_start,
+        neighbour=neighbour,
+        face_start=_with_empty(packed.face_start, len(planes)),
+        face_normal=packed.face_normal,
+        loop_start=packed.loop_start,
+        loop=packed.loop,
         plane_normal=plane_normal,
     )
 
 
-def pack_hulls(shapes: list[BodyShape]) -> Hulls:
-    """Pack the outer polyhedra of the bodies that float."""
-    outers = [shape.outer for shape in shapes]
-    vertex_start = _offsets([len(p.vertices) for p in outers])
-    face_start, loop_start, loop = _loops(outers, vertex_start)
-    count = len(outers)
-    prism = np.zeros(count, np.bool_)
-    plan = np.zeros((count, 8))
-    height = np.zeros((count, 2))
-    effective_radius = np.zeros(count)
-    for i, outer in enumerate(outers):
-        effective_radius[i] = np.linalg.norm(outer.vertices, axis=1).mean()
-        outline = _prism_outline(outer)
+def _with_empty(start: np.ndarray, count: int) -> np.ndarray:
+    """Where rows begin, with `count` empty ones behind them."""
+    return np.concatenate([start, np.full(count, start[-1])])
+
+
+def _numbered_shapes(shapes: Sequence[BodyShape], order: np.ndarray | None) -> Iterator[tuple[BodyShape, np.ndarray]]:
+    return zip(shapes, numbered([shape.count for shape in shapes], order), strict=True)
+
+
+def pack_hulls(shapes: Sequence[BodyShape], order: np.ndarray | None = None) -> Hulls:
+    """Pack the outer polyhedra of the bodies that float; `order` as in pack_shapes."""
+    packed = pack_polyhedra([shape.outer for shape in shapes], order)
+    count = len(packed.vertex_start) - 1
+    prism, plan = np.zeros(count, np.bool_), np.zeros((count, 8))
+    height, effective_radius = np.zeros((count, 2)), np.zeros(count)
+    for shape, number in _numbered_shapes(shapes, order):
+        outer = shape.outer.stacked()
+        effective_radius[number] = np.linalg.norm(outer.vertices, axis=-1).mean(axis=-1)
+        outline = _prism_outlines(outer)
         if outline is not None:
-            prism[i] = True
-            plan[i] = _plan_moments(outline)
-            height[i] = outer.vertices[:, 2].min(), outer.vertices[:, 2].max()
+            z = outer.vertices[..., 2]
+            prism[number] = True
+            plan[number] = _plan_moments(outline)
+            height[number] = np.column_stack((z.min(axis=1), z.max(axis=1)))
     return Hulls(
-        vertex_start, np.concatenate([p.vertices for p in outers] + [np.zeros((0, 3))]), face_start, loop_start, loop,
-        prism, plan, height, effective_radius,
-    )  # fmt: skip
+        packed.vertex_start, packed.vertex, packed.face_start, packed.loop_start, packed.loop, prism, plan, height, effective_radius
+    )
 
 
-def _prism_outline(outer: Polyhedron):
-    """The plan outline (k, 2) of a right prism along z, None for any other polyhedron."""
+def _prism_outlines(outer: Polyhedron) -> np.ndarray | None:
+    """Plan outlines (m, k, 2) of a stack of right prisms along z, None for any other polyhedra."""
     if outer.dimension != 3:
         return None
-    z = outer.vertices[:, 2]
-    flat = 1e-9 * (z.max() - z.min())
-    low, high = z < z.min() + flat, z > z.max() - flat
-    if not np.all(low | high) or low.sum() != high.sum():
+    z = outer.vertices[..., 2]
+    bottom, top = z.min(axis=1, keepdims=True), z.max(axis=1, keepdims=True)
+    flat = 1e-9 * (top - bottom)
+    low, high = z < bottom + flat, z > top - flat
+    if (low != low[0]).any() or not np.all(low | high) or 2 * low[0].sum() != low.shape[1]:
         return None
-    base = next(face for face, normal in zip(outer.faces, outer.normals, strict=True) if normal[2] > 0.999999999)
-    top = outer.vertices[base, :2]
-    gap = np.linalg.norm(outer.vertices[low][:, None, :2] - top[None], axis=2).min(axis=0)
-    return top if gap.max() <= flat else None
+    level = np.flatnonzero((outer.normals[..., 2] > 0.999999999).all(axis=0))
+    if len(level) == 0:
+        return None
+    above = rows(outer.vertices, outer.faces[level[0]])[..., :2]
+    gap = np.linalg.norm(outer.vertices[:, low[0]][:, :, None, :2] - above[:, None], axis=-1).min(axis=1)
+    return above if (gap <= flat).all() else None
 
 
 def _plan_moments(outline: np.ndarray) -> np.ndarray:
-    """Area, second moments about the origin, perimeter with its first moments, and reach of an outline (k, 2) around the origin."""
-    x, y = outline.T
-    x1, y1 = np.roll(x, -1), np.roll(y, -1)
+    """Area, second moments about the origin, perimeter with its first moments, reach; of outlines (m, k, 2) around the origin."""
+    x, y = outline[..., 0], outline[..., 1]
+    x1, y1 = np.roll(x, -1, axis=1), np.roll(y, -1, axis=1)
     twice = x * y1 - x1 * y
     length = np.hypot(x1 - x, y1 - y)
-    return np.array([
-        twice.sum() / 2,
-        (twice * (x * x + x * x1 + x1 * x1)).sum() / 12,
-        (twice * (y * y + y * y1 + y1 * y1)).sum() / 12,
-        (twice * (x * y1 + 2 * x * y + 2 * x1 * y1 + x1 * y)).sum() / 24,
-        length.sum(),
-        (length * (x + x1)).sum() / 2,
-        (length * (y + y1)).sum() / 2,
-        np.hypot(x, y).max(),
+    return np.column_stack([
+        twice.sum(axis=1) / 2,
+        (twice * (x * x + x * x1 + x1 * x1)).sum(axis=1) / 12,
+        (twice * (y * y + y * y1 + y1 * y1)).sum(axis=1) / 12,
+        (twice * (x * y1 + 2 * x * y + 2 * x1 * y1 + x1 * y)).sum(axis=1) / 24,
+        length.sum(axis=1),
+        (length * (x + x1)).sum(axis=1) / 2,
+        (length * (y + y1)).sum(axis=1) / 2,
+        np.hypot(x, y).max(axis=1),
     ])  # fmt: skip

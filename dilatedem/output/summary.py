@@ -1,5 +1,6 @@
 """summary.json: what the run is, how far it got, its headline loads, what it ran on."""
 
+import functools
 import json
 import math
 import platform
@@ -29,6 +30,7 @@ def write_json(path, content: dict) -> None:
     write_text(path, json.dumps(_plain(content), indent=2, allow_nan=False, ensure_ascii=False) + "\n")
 
 
+@functools.cache
 def versions() -> dict[str, str]:
     """Versions of Python and of the libraries that can change the numbers, without importing them."""
     found = {"python": platform.python_version()}

@@ -9,10 +9,11 @@ import base64
 import sys
 import zlib
 from collections.abc import Sequence
-from xml.sax.saxutils import quoteattr
+from html import escape  # that of xml.sax loads half of the web with it
 
 import numpy as np
 
+from dilatedem.geometry.packing import PackedPolyhedra, pack_polyhedra
 from dilatedem.geometry.polyhedron import Polyhedron, convex_hull, prism
 from dilatedem.numerics.frames import matrix_from_quaternion
 from dilatedem.output.atomic import replacing, write_text
@@ -41,19 +42,26 @@ PLATE_THICKNESS = 0.05  # m, of a plane's plate, which lies on its solid side
 class SnapshotWriter:
     """Writes one set of bodies again and again; the connectivity is set up once.
 
-    outers  body-frame outer shapes with the origin at the centroid, one per body
+    outers  body-frame outer shapes with the origin at the centroid: single bodies or stacks
+    order   (n,) number of each body, stack by stack; as they come unless given
 
     Cells stand in the file by their number of vertices, whose body is in the array `body`: meshio (5.3) sorts
     polyhedra like that when it reads, but not their data, so that it fails on, or mixes up, any other order.
     """
 
-    def __init__(self, outers: Sequence[Polyhedron]):
-        counts = np.array([len(outer.vertices) for outer in outers], dtype=np.int64)
-        self._order = np.argsort(counts, kind="stable")
-        in_order = [outers[i] for i in self._order]
-        self._vertices = np.concatenate([np.zeros((0, 3)), *(outer.vertices for outer in in_order)])
-        self._owner = np.repeat(self._order, counts[self._order])
-        self._cells = _cells_element(in_order)
+    def __init__(self, outers: Sequence[Polyhedron], order: np.ndarray | None = None):
+        stacks = [outer.stacked() for outer in outers]
+        counts = np.concatenate([np.zeros(0, np.int64), *(np.full(len(s.vertices), s.vertices.shape[1]) for s in stacks)])
+        order = np.arange(len(counts)) if order is None else order
+        by_body = np.empty_like(counts)
+        by_body[order] = counts
+        self._order = np.argsort(by_body, kind="stable")
+        place_in_file = np.empty_like(self._order)
+        place_in_file[self._order] = np.arange(len(counts))
+        packed = pack_polyhedra(stacks, place_in_file[order])
+        self._vertices = packed.vertex
+        self._owner = np.repeat(self._order, by_body[self._order])
+        self._cells = _cells_element(packed)
 
     def write(self, path, position, orientation, cell_data: dict[str, np.ndarray]) -> None:
         """Write the bodies in the pose given, atomically.
@@ -86,9 +94,9 @@ class SnapshotWriter:
             temporary.write_bytes("".join(parts).encode())
 
 
-def write_shapes(path, outers: Sequence[Polyhedron], position, orientation, cell_data: dict) -> None:
-    """Write bodies in a pose with whatever cell data (float64 or int64, one row a body), atomically."""
-    SnapshotWriter(outers)._write(path, position, orientation, cell_data)
+def write_shapes(path, outers: Sequence[Polyhedron], position, orientation, cell_data: dict, order=None) -> None:
+    """Write bodies in a pose with whatever cell data (float64 or int64, one row a body), atomically; order as SnapshotWriter's."""
+    SnapshotWriter(outers, order)._write(path, position, orientation, cell_data)
 
 
 def write_structures(path, outers: Sequence[Polyhedron]) -> None:
@@ -138,7 +146,7 @@ def plane_plate(point, normal, extent: float) -> Polyhedron:
 def write_pvd(path, snapshots: Sequence[tuple[float, str]]) -> None:
     """Write the collection: (time [s], file relative to the folder of `path`) per snapshot, atomically."""
     entries = "".join(
-        f'    <DataSet timestep="{time_s:.9g}" group="" part="0" file={quoteattr(str(file))}/>\n'
+        f'    <DataSet timestep="{time_s:.9g}" group="" part="0" file="{escape(str(file))}"/>\n'
         for time_s, file in snapshots
     )
     write_text(
@@ -171,26 +179,24 @@ def _checked(cell_data: dict[str, np.ndarray], count: int) -> dict[str, np.ndarr
     return arrays
 
 
-def _cells_element(outers: Sequence[Polyhedron]) -> str:
+def _cells_element(packed: PackedPolyhedra) -> str:
     """The Cells element: per cell its vertices, and its faces as [faces, (vertices, vertex, ...) of each]."""
-    faces: list[int] = []
-    face_offsets: list[int] = []
-    counts: list[int] = []
-    start = 0
-    for outer in outers:
-        faces.append(len(outer.faces))
-        for face in outer.faces:
-            faces.append(len(face))
-            faces.extend((np.asarray(face) + start).tolist())
-        face_offsets.append(len(faces))
-        counts.append(len(outer.vertices))
-        start += counts[-1]
+    cells, faces = len(packed.vertex_start) - 1, np.diff(packed.face_start)
+    cell = np.repeat(np.arange(cells), faces)  # of each face
+    corners = np.diff(packed.loop_start)
+    # in the stream every face has its number of vertices before it, every cell its number of faces
+    face_at = packed.loop_start[:-1] + np.arange(len(corners)) + cell + 1
+    cell_at = packed.loop_start[packed.face_start] + packed.face_start + np.arange(cells + 1)
+    stream = np.empty(cell_at[-1], dtype=np.int64)
+    stream[cell_at[:-1]] = faces
+    stream[face_at] = corners
+    stream[np.arange(len(packed.loop)) + np.repeat(np.arange(len(corners)) + 1 + cell + 1, corners)] = packed.loop
     arrays = {
-        "connectivity": np.arange(start),
-        "offsets": np.cumsum(counts),
-        "types": np.full(len(outers), VTK_POLYHEDRON),
-        "faces": np.array(faces),
-        "faceoffsets": np.array(face_offsets),
+        "connectivity": np.arange(packed.vertex_start[-1]),
+        "offsets": packed.vertex_start[1:],
+        "types": np.full(cells, VTK_POLYHEDRON),
+        "faces": stream,
+        "faceoffsets": cell_at[1:],
     }
     content = "".join(_data_array(name, array.astype(np.int64)) for name, array in arrays.items())
     return f"<Cells>\n{content}</Cells>\n"

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from dilatedem.geometry.outline import MITRE_LIMIT, area, centroid, erode, mitred, perimeter, prepare
+from dilatedem.geometry.outline import MITRE_LIMIT, Outlines, area, centroid, erode, mitred, perimeter, prepare
 from dilatedem.geometry.polyhedron import convex_hull
 
 RECTANGLE = np.array([[0.0, 0.0], [4.0, 0.0], [4.0, 2.0], [0.0, 2.0]])
@@ -105,3 +105,22 @@ def test_prepare_cleans():
 def test_unusable_outlines_are_refused(outline, message):
     with pytest.raises(ValueError, match=message):
         prepare(outline)
+
+
+def test_outlines_read_as_a_list_and_work_as_arrays():
+    each = [np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]) + k for k in range(4)]
+    each.insert(2, np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]))
+    outlines = Outlines.of(each)
+    assert len(outlines) == 5 and outlines.sides.tolist() == [3, 3, 4, 3, 3]
+    for found, expected in zip(outlines, each, strict=True):
+        np.testing.assert_array_equal(found, expected)
+    np.testing.assert_array_equal(outlines[-1], each[-1])
+    assert [len(outline) for outline in outlines[1:3]] == [3, 4]
+    with pytest.raises(IndexError):
+        outlines[5]
+    (three, corners), (four, _) = outlines.by_sides()
+    assert three.tolist() == [0, 1, 3, 4] and four.tolist() == [2]
+    np.testing.assert_array_equal(corners[2], each[3])
+    kept = outlines.where(np.array([False, True, True, False, False]))
+    np.testing.assert_array_equal(kept.points, np.concatenate(each[1:3]))
+    assert len(Outlines.of([])) == 0 and Outlines.of([]).by_sides() == []

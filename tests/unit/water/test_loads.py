@@ -63,7 +63,7 @@ def test_drag(tilt):
     inertia = simulation.model.solids.inertia[0]
     simulation.state.bodies.angular_momentum[0] = turn.as_matrix() @ inertia @ turn.as_matrix().T @ spin
     simulation.evaluate()
-    outer = simulation.scene.bodies[0].shape.outer
+    outer = simulation.scene.shapes[0].outer
     _, _, wetted = submerged(outer, turn.as_matrix(), position[2])
     past = velocity - [0.4, -0.1, 0.0]
     at_rest = np.array([0.4, -0.1, 0.0])
