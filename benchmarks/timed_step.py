@@ -56,7 +56,9 @@ def clock_cost(readings: int = 200_000) -> float:
 
 
 @kernel
-def timed_advance(team, model, bodies, pairs, spare, cells, workspace, tally, ledger, loads, clock, dt, span, steps, booked, timespec):
+def timed_advance(
+    team, model, bodies, pairs, spare, cells, workspace, tally, ledger, loads, clock, dt, span, steps, booked, timespec
+):
     """As `advance`, and adds up the time of each stage.
 
     booked (stages, 2) int64 [ns, readings of the clock] is added to; timespec (2,) int64: room.

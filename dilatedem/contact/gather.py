@@ -1,7 +1,7 @@
 """Per-contact results summed per body, per structure and per mode.
 
-Every sum is taken in the order of the pairs, those of the ledger and of the statistics in a fixed number of parts: results are the same
-for any number of threads.
+Every sum is taken in the order of the pairs, those of the ledger and of the statistics in a fixed number of parts: results are the
+same for any number of threads.
 """
 
 from math import atan2, pi, sqrt

@@ -221,8 +221,8 @@ def _start_paths(bodies, floating, pairs, surroundings, skin):
 def awake_pairs(step, count, floating, bodies, pairs, workspace):
     """Numbers of those of the `count` near pairs whose gap may have closed, to `workspace.awake`; returns how many.
 
-    Those with a structure also go to `workspace.at_structure`, their number is returned second. Shapes of the pairs' bodies are asked
-    for at this step.
+    Those with a structure also go to `workspace.at_structure`, their number is returned second. Shapes of the pairs' bodies are
+    asked for at this step.
     """
     found = at_structure = 0
     path, near, awake, asked = bodies.path, workspace.near, workspace.awake, workspace.asked

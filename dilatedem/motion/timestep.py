@@ -12,6 +12,7 @@ from dilatedem.contact.consistent.line import line_compliance
 from dilatedem.contact.kinematics import mobility
 from dilatedem.contact.liu2015 import BETA
 from dilatedem.jit import kernel
+from dilatedem.numerics.blocks import take
 from dilatedem.numerics.vector import load
 from dilatedem.state.setting import ContactModel
 
@@ -19,6 +20,8 @@ from dilatedem.state.setting import ContactModel
 SETTLING_SPEED = 0.5
 #: steps over the shortest contact at a point that the *critical* step stands for; the automatic step is a tenth of it
 STEPS_PER_CONTACT = 8.0
+#: bodies or faces that are worked together at most, so that their arrays take little memory
+AT_ONCE = 4096
 
 
 def critical_step(model, bodies) -> float:
@@ -37,23 +40,24 @@ def critical_step(model, bodies) -> float:
     stiffest_held = solids.compliance[held].min(initial=np.inf)
     speed = _impact_speed(model, bodies, free)
     shrink = sqrt(1.0 + damping**2) - damping
+    mobility, area = _worst_mobility(shapes, solids)[free], _largest_face(shapes)[free]
+    compliance, inverse_mass, radius = solids.compliance[free], solids.inverse_mass[free], shapes.radius[free]
     shortest = np.inf
-    for i in free:
-        mobility, area = _worst_mobility(shapes, solids, i), _largest_face(shapes, i)
-        # against a body like itself (both give way), and against what does not move
-        for moving, compliance in ((2.0, 2.0 * solids.compliance[i]), (1.0, solids.compliance[i] + stiffest_held)):
-            modulus = 1.0 / compliance
-            face = 2.0 * modulus * BETA * sqrt(area / pi)
-            if face > 0.0:
-                shortest = min(shortest, 2.0 * shrink / sqrt(moving * mobility * face))
-            if model.contact.model == ContactModel.CONSISTENT and area == 0.0:
-                line = _line_stiffness(shapes, i, modulus, moving * solids.inverse_mass[i], speed)
+    # against a body like itself (both give way), and against what does not move
+    for moving, together in ((2.0, 2.0 * compliance), (1.0, compliance + stiffest_held)):
+        modulus = 1.0 / together
+        face = moving * mobility * (2.0 * modulus * BETA * np.sqrt(area / pi))
+        if face.max() > 0.0:
+            shortest = min(shortest, 2.0 * shrink / sqrt(face.max()))
+        if model.contact.model == ContactModel.CONSISTENT:
+            for k in np.flatnonzero(area == 0.0):
+                line = _line_stiffness(shapes, free[k], modulus[k], moving * inverse_mass[k], speed)
                 if line > 0.0:
-                    shortest = min(shortest, 2.0 * shrink / sqrt(moving * mobility * line))
-            hertz = 4.0 / 3.0 * modulus * sqrt(shapes.radius[i])
-            if hertz > 0.0:
-                depth = (1.25 * speed**2 / (moving * solids.inverse_mass[i] * hertz)) ** 0.4
-                shortest = min(shortest, 2.943 * depth / speed / STEPS_PER_CONTACT)
+                    shortest = min(shortest, 2.0 * shrink / sqrt(moving * mobility[k] * line))
+        hertz = moving * inverse_mass * (4.0 / 3.0 * modulus * np.sqrt(radius))
+        if hertz.max() > 0.0:
+            depth = (1.25 * speed**2 / hertz.max()) ** 0.4
+            shortest = min(shortest, 2.943 * depth / speed / STEPS_PER_CONTACT)
     return shortest
 
 
@@ -66,24 +70,37 @@ def _impact_speed(model, bodies, free) -> float:
     return max(2.0 * moving, current, settling, 1e-6)
 
 
-def _worst_mobility(shapes, solids, i: int) -> float:
-    """Largest 1/m' [1/kg] over a body's core vertices and the three axes of its frame."""
-    corners = shapes.vertex[shapes.vertex_start[i] : shapes.vertex_start[i + 1]]
-    most = 0.0
-    for axis in np.eye(3):
-        lever = np.cross(corners, axis)
-        most = max(most, np.einsum("vi,ij,vj->v", lever, solids.inverse_inertia[i], lever).max())
-    return solids.inverse_mass[i] + most
+def _worst_mobility(shapes, solids) -> np.ndarray:
+    """(n,) largest 1/m' [1/kg] over each body's core vertices and the three axes of its frame."""
+    most = np.zeros(len(shapes.radius))
+    for bodies, corners in _rows_by_length(shapes.vertex_start, shapes.vertex):
+        for axis in np.eye(3):
+            lever = np.cross(corners, axis)
+            turning = np.einsum("bvi,bij,bvj->bv", lever, solids.inverse_inertia[bodies], lever)
+            most[bodies] = np.maximum(most[bodies], turning.max(axis=1))
+    return solids.inverse_mass + most
 
 
-def _largest_face(shapes, i: int) -> float:
-    """Area [m2] of the largest face of a core; 0 for spheres and capsules."""
-    largest = 0.0
-    for f in range(shapes.face_start[i], shapes.face_start[i + 1]):
-        corners = shapes.vertex[shapes.loop[shapes.loop_start[f] : shapes.loop_start[f + 1]]]
-        area = 0.5 * np.cross(corners - corners[0], np.roll(corners, -1, axis=0) - corners[0]).sum(axis=0)
-        largest = max(largest, float(np.linalg.norm(area)))
+def _largest_face(shapes) -> np.ndarray:
+    """(n,) area [m2] of the largest face of each core; 0 for spheres, capsules and half spaces."""
+    area = np.zeros(len(shapes.loop_start) - 1)
+    for faces, loops in _rows_by_length(shapes.loop_start, shapes.loop):
+        local = shapes.vertex[loops] - shapes.vertex[loops[:, :1]]
+        vector = 0.5 * np.cross(local, np.roll(local, -1, axis=1)).sum(axis=1)
+        area[faces] = np.sqrt(np.vecdot(vector, vector))
+    largest = np.zeros(len(shapes.radius))
+    np.maximum.at(largest, np.repeat(np.arange(len(largest)), np.diff(shapes.face_start)), area)
     return largest
+
+
+def _rows_by_length(start, flat):
+    """Rows of a flat array by their length, at most AT_ONCE: which (m,), and their entries (m, length, ...); empty ones never."""
+    length = np.diff(start)
+    for k in np.unique(length[length > 0]):
+        rows = np.flatnonzero(length == k)
+        for first in range(0, len(rows), AT_ONCE):
+            some = rows[first : first + AT_ONCE]
+            yield some, take(flat, start[some], k)
 
 
 def _line_stiffness(shapes, i: int, modulus: float, inverse_mass: float, speed: float) -> float:
