@@ -269,6 +269,13 @@ def _stop_on_fault(simulation: Simulation, output: RunOutput, status: Status) ->
         raise SimulationStopped(sentence)
 
 
+def restored(case: Case, out: Path) -> Simulation:
+    """A case in the state that its run folder holds. Raises CaseError as `run` does with `resume`."""
+    simulation = Simulation.of_case(case)
+    _load_checkpoint(Path(out), case, simulation)
+    return simulation
+
+
 def _load_checkpoint(out: Path, case: Case, simulation: Simulation) -> dict:
     """Restore the saved state into `simulation`; returns the checkpoint's meta."""
     kept = out / folder.CASE
