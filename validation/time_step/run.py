@@ -83,7 +83,8 @@ def table(results: dict[tuple[str, float], list[Found]]) -> str:
     ]
     for (model, fraction), found in results.items():
         peak, impulse = change(found, "fh_max_N"), change(found, "impulse_h_Ns")
-        wall, whole = np.median([one.wall for one in found]), [spread([getattr(one, n) for one in found]) for n in ("peak", "impulse")]
+        wall = np.median([one.wall for one in found])
+        whole = [spread([getattr(one, name) for one in found]) for name in ("peak", "impulse")]
         lines.append(
             f"| `{model}` | {fraction:g} | {wall:.1f} | {peak[0]:+.2%}, {peak[1]:+.2%} | {impulse[0]:+.2%}, {impulse[1]:+.2%} "
             f"| {whole[0]} | {whole[1]} |"
