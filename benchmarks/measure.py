@@ -12,6 +12,7 @@ from benchmarks.timed_step import STAGES, timed
 from benchmarks.yardstick import coal_step
 from dilatedem.simulation import Simulation
 from dilatedem.state.clock import Status
+from dilatedem.state.pairs import grown
 
 #: steps before the first that is timed: friction springs that the copies of a scene start without
 WARMING = 100
@@ -65,7 +66,7 @@ class Replay:
                 for now, then in zip(current, group, strict=True):
                     now[...] = then
             else:
-                setattr(state, name, _copied(group))
+                setattr(state, name, grown(group, len(group.a)) if name == "pairs" else _copied(group))
         self.simulation._make_room()  # a workspace may remember steps that are to come again
         self._run(1)
 

@@ -78,7 +78,7 @@ def tiles_for(floes: int, per_tile: int) -> tuple[int, int]:
 
 def pitch_of(tile: Simulation) -> np.ndarray:
     """Distance of neighbouring copies along x and y [m]: the scene's own size, or the length of its ice where that is longer."""
-    corners = np.concatenate([body.outline for body in tile.scene.bodies])
+    corners = tile.scene.outlines.points
     extent = corners.max(axis=0) - corners.min(axis=0)
     size = np.array(tile.case.domain.size)
     return np.where(extent > size + SLACK, np.ceil(extent), size)

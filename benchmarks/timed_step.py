@@ -13,12 +13,12 @@ from dilatedem.contact.gather import close_tally, load_structures, record_loads,
 from dilatedem.contact.neighbours import awake_pairs, find_pairs
 from dilatedem.jit import device, kernel
 from dilatedem.motion.paces import foresee
-from dilatedem.motion.stages import collide_pairs, complete_spins, drift_bodies, load_and_kick, longest_path, surprised, turn_shapes
+from dilatedem.motion.stages import collide_pairs, complete_spins, drift_bodies, load_and_kick, longest_path, surprised
 from dilatedem.motion.step import DONE, PAIRS_FULL, TOO_DEEP, TOO_FAST
 
 #: stages in the order of the step; `booked` of `timed_advance` has a row for each
-STAGES = ("search", "foresee", "drift", "wake", "turn", "collide", "float", "record", "idle")
-SEARCH, FORESEE, DRIFT, WAKE, TURN, COLLIDE, FLOAT, RECORD, IDLE = range(len(STAGES))
+STAGES = ("search", "foresee", "drift", "wake", "collide", "float", "record", "idle")
+SEARCH, FORESEE, DRIFT, WAKE, COLLIDE, FLOAT, RECORD, IDLE = range(len(STAGES))
 
 #: POSIX clock that no one sets; its number differs between systems
 _MONOTONIC = getattr(time, "CLOCK_MONOTONIC", 1)
@@ -81,10 +81,8 @@ def timed_advance(
             t = _lap(booked, DRIFT, timespec, t)
             clock.step[0] += 1
             clock.moves[0] += busy
-            awake, at_structure = awake_pairs(clock.step[0], near, model.floating, bodies, pairs, workspace)
+            awake, at_structure = awake_pairs(near, model.floating, bodies, pairs, workspace)
             t = _lap(booked, WAKE, timespec, t)
-            turn_shapes(team, clock.step[0], busy, model, bodies, workspace)
-            t = _lap(booked, TURN, timespec, t)
             collide_pairs(team, awake, dt, model, bodies, pairs, workspace, tally)
             t = _lap(booked, COLLIDE, timespec, t)
             load_and_kick(team, workspace.busy, busy, awake, dt, model, bodies, pairs, workspace)

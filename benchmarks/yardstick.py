@@ -57,9 +57,9 @@ def _contacts(simulation) -> np.ndarray:
 def _hulls(coal, simulation) -> list:
     """coal's convex polyhedra of all floes' cores."""
     hulls = []
-    for body in simulation.scene.bodies:
+    for shape in simulation.scene.shapes:
         points = coal.StdVec_Vec3s()
-        points.extend(list(body.shape.core.vertices))
+        points.extend(list(shape.core.vertices))
         hulls.append(coal.Convex.convexHull(points, False, "Qt"))
     return hulls
 

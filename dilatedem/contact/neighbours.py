@@ -218,21 +218,19 @@ def _start_paths(bodies, floating, pairs, surroundings, skin):
 
 
 @device
-def awake_pairs(step, count, floating, bodies, pairs, workspace):
+def awake_pairs(count, floating, bodies, pairs, workspace):
     """Numbers of those of the `count` near pairs whose gap may have closed, to `workspace.awake`; returns how many.
 
-    Those with a structure also go to `workspace.at_structure`, their number is returned second. Shapes of the pairs' bodies are
-    asked for at this step.
+    Those with a structure also go to `workspace.at_structure`, their number is returned second.
     """
     found = at_structure = 0
-    path, near, awake, asked = bodies.path, workspace.near, workspace.awake, workspace.asked
+    path, near, awake = bodies.path, workspace.near, workspace.awake
     for w in range(count):
         k = near[w]
         a, b = pairs.a[k], pairs.b[k]
         if path[a] + path[b] >= pairs.wake[k]:
             awake[found] = k
             found += 1
-            asked[a] = asked[b] = step
             if b >= floating:
                 workspace.at_structure[at_structure] = k
                 at_structure += 1

@@ -101,33 +101,19 @@ def surprised(workspace):
 
 
 @device
-def _turn_block(block, blocks, step, count, shapes, orientation, workspace):
-    first, last = part(count, block, blocks)
+def _turn_shapes(block, first, last, shapes, orientation, pairs, workspace):
+    """Have the shapes of the awake pairs first..last-1 turned to this instant by this thread.
+
+    Just before they are looked at, while they fit into the processor's cache. A body that two threads look at is turned by both,
+    and both write the same.
+    """
+    instant, turned = workspace.instant[0], workspace.turned
     for w in range(first, last):
-        i = workspace.busy[w]
-        if workspace.asked[i] == step:
-            turn_shape(i, shapes, orientation, workspace.vertex, workspace.face_normal)
-
-
-@device
-def _turn_alone(team, step, count, shapes, orientation, workspace):
-    _turn_block(0, 1, step, count, shapes, orientation, workspace)
-
-
-@shared_loop
-def _turn_shared(team, step, count, shapes, orientation, workspace):
-    blocks = team.threads
-    for block in prange(blocks):
-        _turn_block(block, blocks, step, count, shapes, orientation, workspace)
-
-
-_turn_all = by_team(_turn_alone, _turn_shared)
-
-
-@device
-def turn_shapes(team, step, count, model, bodies, workspace):
-    """Turn the shapes of those busy bodies, `count` in all, that an awake pair asks for at this step."""
-    _turn_all(team, step, count, model.shapes, bodies.orientation, workspace)
+        k = workspace.awake[w]
+        for body in (pairs.a[k], pairs.b[k]):
+            if turned[block, body] != instant:
+                turned[block, body] = instant
+                turn_shape(body, shapes, orientation, workspace.vertex, workspace.face_normal)
 
 
 @device
@@ -137,6 +123,7 @@ def _collide_block(block, blocks, count, dt, floating, shapes, solids, contact, 
     for p in range(first_part, last_part):
         tally.deep[p] = -1
         first, last = part(count, p, len(tally.deep))
+        _turn_shapes(block, first, last, shapes, bodies.orientation, pairs, workspace)
         for w in range(first, last):
             k = workspace.awake[w]
             collide(
@@ -165,6 +152,7 @@ _collide_all = by_team(_collide_alone, _collide_shared)
 def collide_pairs(team, count, dt, model, bodies, pairs, workspace, tally):
     """Evaluate the awake pairs, `count` of them; what they cost and showed goes to the tally."""
     m = model
+    workspace.instant[0] += 1
     _collide_all(team, count, dt, m.floating, m.shapes, m.solids, m.contact, m.surroundings, bodies, pairs, workspace, tally)
 
 

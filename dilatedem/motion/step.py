@@ -4,7 +4,7 @@ from dilatedem.contact.gather import close_tally, load_structures, record_loads,
 from dilatedem.contact.neighbours import awake_pairs, find_pairs
 from dilatedem.jit import kernel
 from dilatedem.motion.paces import foresee
-from dilatedem.motion.stages import collide_pairs, complete_spins, drift_bodies, load_and_kick, longest_path, surprised, turn_shapes
+from dilatedem.motion.stages import collide_pairs, complete_spins, drift_bodies, load_and_kick, longest_path, surprised
 from dilatedem.state.clock import Status
 
 DONE, PAIRS_FULL, TOO_FAST, TOO_DEEP = int(Status.DONE), int(Status.PAIRS_FULL), int(Status.TOO_FAST), int(Status.TOO_DEEP)
@@ -32,8 +32,7 @@ def advance(team, model, bodies, pairs, spare, cells, workspace, tally, ledger, 
                 break
             clock.step[0] += 1
             clock.moves[0] += busy
-            awake, at_structure = awake_pairs(clock.step[0], near, model.floating, bodies, pairs, workspace)
-            turn_shapes(team, clock.step[0], busy, model, bodies, workspace)
+            awake, at_structure = awake_pairs(near, model.floating, bodies, pairs, workspace)
             collide_pairs(team, awake, dt, model, bodies, pairs, workspace, tally)
             load_and_kick(team, workspace.busy, busy, awake, dt, model, bodies, pairs, workspace)
             load_structures(at_structure, dt, model.floating, bodies, pairs, workspace, loads)

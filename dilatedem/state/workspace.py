@@ -28,7 +28,8 @@ class Workspace(NamedTuple):
     is_busy: np.ndarray  # (n,)
     room: np.ndarray  # (n,) m, how far a body is taken to get at most
     horizon: np.ndarray  # (n,) m, path at which a body has got farther than it was taken to
-    asked: np.ndarray  # (n,) step at which a body's shape was looked at last
+    instant: np.ndarray  # (1,) counts the instants at which pairs were evaluated
+    turned: np.ndarray  # (threads, n) instant to which a thread has turned a body's shape
     fault: np.ndarray  # (threads,) body that moves too fast, -1 = none
     leap: np.ndarray  # (threads,) m, how far it moved
     surprise: np.ndarray  # (threads,) whether some body has passed its horizon
@@ -56,7 +57,8 @@ def make_workspace(shapes, hulls, capacity: int, threads: int) -> Workspace:
         is_busy=np.zeros(bodies, np.bool_),
         room=np.zeros(bodies),
         horizon=np.zeros(bodies),
-        asked=np.full(bodies, -1, np.int64),
+        instant=np.zeros(1, np.int64),
+        turned=np.zeros((threads, bodies), np.int64),
         fault=np.full(threads, -1, np.int64),
         leap=np.zeros(threads),
         surprise=np.zeros(threads, np.bool_),

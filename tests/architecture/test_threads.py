@@ -10,7 +10,7 @@ import pytest
 
 from dilatedem.case.load import load
 from dilatedem.jit import Team
-from dilatedem.motion.stages import _collide_shared, _drift_shared, _load_and_kick_shared, _turn_shared
+from dilatedem.motion.stages import _collide_shared, _drift_shared, _load_and_kick_shared
 from dilatedem.motion.step import advance
 from dilatedem.simulation import Simulation
 from dilatedem.state.clock import Status
@@ -60,5 +60,5 @@ def test_shared_loops_write_what_the_serial_loop_writes(start, parts):
 def test_the_shared_loops_are_those_that_were_compared():
     """Guards against a comparison of the serial loops with themselves."""
     assert any(Team.__name__ in str(signature[0]) for signature in advance.signatures)
-    for loop in (_drift_shared, _turn_shared, _collide_shared, _load_and_kick_shared):
+    for loop in (_drift_shared, _collide_shared, _load_and_kick_shared):
         assert loop.targetoptions["parallel"]

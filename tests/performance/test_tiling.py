@@ -13,7 +13,7 @@ from dilatedem.state.clock import Status
 
 def test_repeated_arrays_are_those_of_repeated_shapes():
     tile = scene_simulation("jam")
-    floes = [body.shape for body in tile.scene.bodies]
+    floes = tile.scene.shapes
     column = BodyShape.of_core(convex_hull(np.array([[0.0, 0.0, -PILE_HALF_LENGTH], [0.0, 0.0, PILE_HALF_LENGTH]])), 2.0)[0]
     for made, packed in (
         (repeated_shapes(tile.model.shapes, len(floes), 3), pack_shapes(3 * floes + 3 * [column], [])),
