@@ -44,7 +44,9 @@ if "NUMBA_CACHE_DIR" not in os.environ:
     os.environ["NUMBA_CACHE_DIR"] = str(_cache_folder())
 
 import numba  # noqa: E402  (the cache folder must be known first)
-from numba.extending import overload  # noqa: E402
+from llvmlite import ir  # noqa: E402
+from numba.core import types  # noqa: E402
+from numba.extending import intrinsic, overload  # noqa: E402
 
 # a program that imported Numba before has it configured already, with the cache beside the sources: there, code goes stale
 numba.config.CACHE_DIR = os.environ["NUMBA_CACHE_DIR"]
@@ -52,6 +54,10 @@ numba.config.CACHE_DIR = os.environ["NUMBA_CACHE_DIR"]
 numba.config.THREADING_LAYER_PRIORITY = ["omp", "workqueue", "tbb"]
 
 prange = numba.prange
+
+
+#: bytes
+CACHE_LINE = 64
 
 
 class Alone(NamedTuple):
@@ -133,3 +139,28 @@ def is_cached(dispatcher) -> bool:
     """Whether machine code of a kernel lies on disk, for some kind of arguments."""
     folder = Path(os.environ["NUMBA_CACHE_DIR"])
     return any(folder.rglob(f"*{dispatcher.py_func.__name__}*.nbi"))
+
+
+@intrinsic
+def prefetch(typingctx, array, row, line):
+    """Have the cache line number `line` of a row of an array brought into the cache; nothing waits for it, and nothing is read.
+
+    The row begins where `array[row]` does; lines beyond it are fetched as well, if only they are mapped.
+    """
+    signature = types.void(array, types.intp, types.intp)
+
+    def code(context, builder, signature, arguments):
+        held = context.make_array(signature.args[0])(context, builder, arguments[0])
+        stride = builder.extract_value(held.strides, 0)
+        lines = builder.mul(arguments[2], ir.Constant(arguments[2].type, CACHE_LINE))
+        offset = builder.add(builder.mul(arguments[1], stride), lines)
+        byte = ir.IntType(8)
+        start = builder.bitcast(held.data, byte.as_pointer())
+        address = builder.gep(start, [offset], source_etype=byte)
+        flag = ir.IntType(32)
+        kind = ir.FunctionType(ir.VoidType(), [address.type, flag, flag, flag])
+        call = builder.module.globals.get("llvm.prefetch.p0") or ir.Function(builder.module, kind, "llvm.prefetch.p0")
+        builder.call(call, [address, flag(0), flag(2), flag(1)])
+        return context.get_dummy_value()
+
+    return signature, code

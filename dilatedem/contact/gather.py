@@ -8,12 +8,14 @@ from math import atan2, pi, sqrt
 
 from dilatedem.contact.collide import CONSISTENT
 from dilatedem.contact.consistent.press import DEEPEST_SHARE
-from dilatedem.jit import device, item
+from dilatedem.jit import device, item, prefetch
 from dilatedem.numerics.vector import accumulate, add, cross, load, scale, sub
 from dilatedem.state.record import ANGLE_BINS, HEIGHT_BINS
 
 #: overlap, in units of the smaller dilated radius of the two, past which the run stops
 DEEPEST = 4.0
+#: pairs between the one whose results are asked for and the one that is summed
+AHEAD = 8
 
 
 @device
@@ -30,7 +32,10 @@ def sum_contacts(chosen, first, last, awake, bodies, pairs, workspace):
             bodies.contact_force[i, m] = 0.0
             bodies.contact_torque[i, m] = 0.0
     for w in range(awake):
-        k = workspace.awake[w]
+        k, later = workspace.awake[w], workspace.awake[min(w + AHEAD, awake - 1)]
+        prefetch(pairs.overlap, later, 0)
+        prefetch(pairs.force, later, 0)
+        prefetch(pairs.force, later, 1)
         a, b = pairs.a[k], pairs.b[k]
         if a > high:
             break  # pairs are sorted by a, and b > a

@@ -7,11 +7,16 @@ on the number of threads. (Writes through a NamedTuple *inside* a prange would b
 from dilatedem.contact.collide import collide
 from dilatedem.contact.gather import book_contact, sum_contacts
 from dilatedem.contact.turning import turn_shape
-from dilatedem.jit import by_team, device, prange, shared_loop
+from dilatedem.jit import by_team, device, item, prange, prefetch, shared_loop
 from dilatedem.motion.integrate import complete_spin, drift, kick
 from dilatedem.motion.paces import LONGEST_MOVE
 from dilatedem.water.floating import submerge
 from dilatedem.water.loads import body_loads
+
+#: cache lines of a pair's row
+PAIR_LINES = 6
+#: pairs that are turned, fetched and evaluated together
+AT_ONCE = 16
 
 
 @device
@@ -101,11 +106,55 @@ def surprised(workspace):
 
 
 @device
+def _fetch(block, first, last, shapes, bodies, pairs, workspace):
+    """Ask for what the awake pairs first..last-1 and their bodies will need, while others are evaluated.
+
+    With some thousand bodies a step's data no longer fit into the processor's cache, and a pair would wait for each part of them in
+    turn.
+    """
+    instant, turned = workspace.instant[0], workspace.turned
+    for w in range(first, last):
+        k = workspace.awake[w]
+        for line in range(PAIR_LINES):
+            prefetch(pairs.rounds, k, line)
+        for body in (pairs.a[k], pairs.b[k]):
+            if abs(turned[block, body]) != instant:
+                turned[block, body] = -instant
+                _fetch_body(body, shapes, bodies, workspace)
+
+
+@item
+def _fetch_body(body, shapes, bodies, workspace):
+    prefetch(bodies.position, body, 0)
+    prefetch(bodies.orientation, body, 0)
+    prefetch(bodies.velocity, body, 0)
+    prefetch(bodies.angular_velocity, body, 0)
+    prefetch(bodies.middle_velocity, body, 0)
+    prefetch(bodies.middle_angular_velocity, body, 0)
+    first, last = shapes.vertex_start[body], shapes.vertex_start[body + 1]
+    for line in range((last - first) * 3 // 8 + 1):
+        prefetch(shapes.vertex, first, line)
+        prefetch(workspace.vertex, first, line)
+    for line in range((last - first) // 8 + 1):
+        prefetch(shapes.neighbour_start, first, line)
+    for line in range((last - first) * 3 // 8 + 1):  # every corner of a floe has three neighbours
+        prefetch(shapes.neighbour, shapes.neighbour_start[first], line)
+    first, last = shapes.face_start[body], shapes.face_start[body + 1]
+    for line in range((last - first) * 3 // 8 + 1):
+        prefetch(shapes.face_normal, first, line)
+        prefetch(workspace.face_normal, first, line)
+    if last > first:
+        start, end = shapes.loop_start[first], shapes.loop_start[last]
+        for line in range((end - start) // 8 + 1):
+            prefetch(shapes.loop, start, line)
+
+
+@device
 def _turn_shapes(block, first, last, shapes, orientation, pairs, workspace):
     """Have the shapes of the awake pairs first..last-1 turned to this instant by this thread.
 
-    Just before they are looked at, while they fit into the processor's cache. A body that two threads look at is turned by both,
-    and both write the same.
+    Just before they are looked at, while they are in the processor's cache. A body that two threads look at is turned by both, and
+    both write the same.
     """
     instant, turned = workspace.instant[0], workspace.turned
     for w in range(first, last):
@@ -123,14 +172,18 @@ def _collide_block(block, blocks, count, dt, floating, shapes, solids, contact, 
     for p in range(first_part, last_part):
         tally.deep[p] = -1
         first, last = part(count, p, len(tally.deep))
-        _turn_shapes(block, first, last, shapes, bodies.orientation, pairs, workspace)
-        for w in range(first, last):
-            k = workspace.awake[w]
-            collide(
-                k, dt, shapes, workspace.vertex, workspace.face_normal, solids, bodies, pairs, contact, surroundings,
-                workspace.clip[block],
-            )  # fmt: skip
-            book_contact(k, p, dt, floating, shapes, contact, pairs, tally)
+        _fetch(block, first, min(first + AT_ONCE, last), shapes, bodies, pairs, workspace)
+        for some in range(first, last, AT_ONCE):
+            end = min(some + AT_ONCE, last)
+            _fetch(block, end, min(end + AT_ONCE, last), shapes, bodies, pairs, workspace)
+            _turn_shapes(block, some, end, shapes, bodies.orientation, pairs, workspace)
+            for w in range(some, end):
+                k = workspace.awake[w]
+                collide(
+                    k, dt, shapes, workspace.vertex, workspace.face_normal, solids, bodies, pairs, contact, surroundings,
+                    workspace.clip[block],
+                )  # fmt: skip
+                book_contact(k, p, dt, floating, shapes, contact, pairs, tally)
 
 
 @device

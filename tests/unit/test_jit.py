@@ -1,0 +1,29 @@
+"""`jit.prefetch` reads and writes nothing, whatever the layout of the array."""
+
+import numpy as np
+import pytest
+
+from dilatedem.jit import kernel, prefetch
+
+
+@kernel
+def fetch_and_sum(array, rows):
+    total = 0.0
+    for i in range(rows):
+        prefetch(array, min(i + 3, rows - 1), 0)
+        prefetch(array, i, 2)  # a line beyond the row
+        total += array[i, 0]
+    return total
+
+
+@pytest.mark.parametrize("columns", [slice(0, 3), slice(1, 8, 2)])
+def test_a_prefetch_changes_nothing(columns):
+    whole = np.random.default_rng(1).random((50, 8))
+    array, before = whole[:, columns], whole.copy()
+    assert fetch_and_sum(array, len(array)) == pytest.approx(array[:, 0].sum(), rel=1e-14)
+    np.testing.assert_array_equal(whole, before)
+
+
+def test_the_instruction_is_in_the_machine_code():
+    fetch_and_sum(np.ones((4, 3)), 4)
+    assert any("prefetch" in code for code in fetch_and_sum.inspect_asm().values())
