@@ -7,7 +7,7 @@ the largest where two are equal and equal to it where one leads; a feature of le
 from math import log, pi, sqrt
 
 from dilatedem.contact.consistent.cap import CORNERS, UNBOUNDED, corner_of, facing, lay_out, lay_sides, nearest, side_of
-from dilatedem.contact.consistent.face import press_face
+from dilatedem.contact.consistent.face import any_rim, press_face, strongest_rim
 from dilatedem.contact.consistent.line import line_compliance, press_edge
 from dilatedem.contact.consistent.point import press_vertex
 from dilatedem.contact.support import PARALLEL
@@ -65,6 +65,23 @@ def _line_bound(modulus, second, length, overlap, curvature):
 def _point_bound(modulus, overlap, radius):
     """Upper bound of the energy of a vertex that presses by at most `overlap`."""
     return HERTZ * modulus * overlap * overlap * sqrt(overlap * radius)
+
+
+@item
+def _rims_count(scratch, patch, reach, overlap, bluntest, modulus, least):
+    """Whether an edge or a vertex beside a patch can have an energy of `least` [J], and the length that none of the contacts of
+    edges exceeds [m].
+
+    patch: as `press_face` returns it; bluntest: the larger radius.
+    """
+    count, now, tilt = patch
+    beyond = sqrt(2.0 * reach * overlap)
+    pointed = _point_bound(modulus, overlap, bluntest) >= least
+    second, longest = any_rim(scratch[now], count, beyond, tilt, overlap)
+    if not pointed and _line_bound(modulus, second, longest, overlap, 1.0 / bluntest) < least:
+        return False, longest
+    second, longest = strongest_rim(scratch[now], count, beyond, tilt * beyond, overlap)
+    return pointed or _line_bound(modulus, second, longest, overlap, 1.0 / bluntest) >= least, longest
 
 
 @device
@@ -159,15 +176,13 @@ def pose_energy(
             normal_b = load(face_normal, fb)
     reach = ra + rb
     sums = 0.0, 0.0, NONE, NONE, VERTEX_FACE, 1.0, (NONE, NONE)
-    rims, longest = FAR, FAR
+    longest, bluntest, needed = FAR, max(ra, rb), True
     if fa >= 0 and (fb >= 0 or half_space):
-        energy, more, turn, area, bound, spread = press_face(scratch, na, normal_a, nb, normal_b, reach, overlap, modulus)
+        energy, more, turn, area, spread, patch = press_face(scratch, na, normal_a, nb, normal_b, reach, modulus)
         if energy > 0.0:
             sums = energy, 1.0, scale(-1.0, more), scale(-1.0, turn), FACE_FACE, area, spread
-            rims, longest = bound
-    bluntest = max(ra, rb)
-    least = NEGLECTED * sums[0]
-    if _line_bound(modulus, rims, longest, overlap, 1.0 / bluntest) >= least or _point_bound(modulus, overlap, bluntest) >= least:
+            needed, longest = _rims_count(scratch, patch, reach, overlap, bluntest, modulus, NEGLECTED * energy)
+    if needed:
         lay_sides(scratch, 0, na)
         lay_sides(scratch, 1, nb)
         sums = _press_rims(0, scratch, na, ra, nb, rb, normal_b, overlap, longest, modulus, sums)
