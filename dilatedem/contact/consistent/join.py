@@ -12,7 +12,7 @@ from dilatedem.contact.consistent.line import BASE, BEND, LEVEL, line_compliance
 from dilatedem.contact.consistent.point import press_vertex
 from dilatedem.contact.support import PARALLEL
 from dilatedem.jit import device, item
-from dilatedem.numerics.vector import along, cross, dot, load, norm, scale, sub
+from dilatedem.numerics.vector import along, cross, dot, load, scale, sub
 from dilatedem.state.modes import Mode
 
 #: exponent of the norm
@@ -129,7 +129,7 @@ def _press_rims(own, scratch, count, radius, their, other, normal, overlap, long
     for i in range(count if count > 2 else count - 1):
         p, e = corner_of(scratch, own, i), side_of(scratch, own, i)
         d = sub(corner_of(scratch, own, i + 1 if i + 1 < count else 0), p)
-        length = norm(d)
+        length = dot(d, e)
         if flat:
             # overlaps of its ends with the plane of the other cap
             u = reach - dot(sub(p, corner_of(scratch, which, 0)), normal)
@@ -144,7 +144,10 @@ def _press_rims(own, scratch, count, radius, their, other, normal, overlap, long
             second = pressed * (deepest * deepest + deepest * shallow + shallow * shallow) / 3.0
             pressed, deepest = min(pressed, longest), min(deepest, overlap)
             second = min(second, pressed * deepest * deepest)
-            if _line_bound(modulus, second, pressed, deepest, 1.0 / radius) < NEGLECTED * largest:
+            least = NEGLECTED * largest
+            if _surely_below(modulus, second, pressed, deepest, radius, least):
+                continue
+            if _line_bound(modulus, second, pressed, deepest, 1.0 / radius) < least:
                 continue
         energy, more, turn, line, across = press_edge(p, e, length, radius, scratch, which, their, normal, other, modulus, SHARP)
         if energy > NEGLECTED * largest:

@@ -21,8 +21,6 @@ OFFSET, SHORT = 0.3, 14.0
 STEP = 1e-8
 #: squared sine of the angle between an edge and the plane, or the side, below which its distance from them does not change
 PARALLEL2 = 1e-24
-#: one plus the cosine between the outward normals of two sides below which nothing is divided by it
-TINY = 1e-9
 NONE = (0.0, 0.0, 0.0)
 #: Gauss-Legendre abscissae and weights of four points on -1..1, exact to degree 7
 OUTER, INNER = sqrt(3.0 / 7.0 + 2.0 / 7.0 * sqrt(1.2)), sqrt(3.0 / 7.0 - 2.0 / 7.0 * sqrt(1.2))
@@ -108,16 +106,9 @@ def _pressing(w, turn, reach, low, high):
 
 
 @device
-def _outwards(scratch, which, count, normal, region, place):
-    """The vector whose product with the vector from a cap says how far a point is beyond the border: the outward normal of a side.
-
-    Past a corner the one that agrees with both sides (the distance from the corner is no polynomial along an edge).
-    """
-    out = cross(side_of(scratch, which, place), normal)
-    if region == CORNER:
-        before = cross(side_of(scratch, which, place - 1 if place > 0 else count - 1), normal)
-        out = scale(1.0 / max(1.0 + dot(before, out), TINY), add(before, out))
-    return out
+def _beside(w, region, out, normal):
+    """The part of a vector from a cap that leads beyond its border: across the side with the normal `out`, or from a corner."""
+    return scale(dot(w, out), out) if region == SIDE else along(w, -dot(w, normal), normal)
 
 
 @item
@@ -139,7 +130,7 @@ def _past_corner(x, e, half, w, turn, scratch, which, count, normal, place, reac
 @item
 def _add_piece(sums, x, e, low, high, w, turn, scratch, which, count, normal, region, place, reach):
     """Add low..high of the line x + s e over one region of the cap, w + s turn from the cap to it, to the sums: the integrals of
-    overlap, its square, its square times the way beyond the border and times the squared way beyond a corner, each with minus its
+    overlap, its square, its square times the squared way beyond the border and beyond a corner, each with minus its
     gradient as force and moment on the edge's body.
 
     About the middle of the piece all but the last are polynomials of s whose odd powers integrate to nothing.
@@ -165,14 +156,18 @@ def _add_piece(sums, x, e, low, high, w, turn, scratch, which, count, normal, re
     if region == INTERIOR or count == UNBOUNDED:
         return i1, i2, f1, f2, m1, m2, i3, f3, m3, i4, f4, m4
     if count > 2:
-        out = _outwards(scratch, which, count, normal, region, place)
-        b0, b1, square1 = dot(w, out), dot(turn, out), q1 * s2 + q3 * s4
-        p0, p1, p2 = c0 * b0, c0 * b1 + c1 * b0, c1 * b1 + c2 * b0
-        p0, p1, p2 = push * (p0 * s0 + p2 * s2), push * (p1 * s2 + c2 * b1 * s4), push * (p0 * s2 + p2 * s4)
-        i3 += b0 * second + b1 * square1
-        f3 = along(along(along(f3, p0, w), p1, turn), -second, out)
+        out = cross(side_of(scratch, which, place), normal)
+        b, c = _beside(w, region, out, normal), _beside(turn, region, out, normal)
+        b0, b1, b2 = dot(b, b), 2.0 * dot(b, c), dot(c, c)
+        s6 = s0 * square * square * square * (1.0 / 7.0)
+        square1, square2 = q1 * s2 + q3 * s4, q0 * s2 + q2 * s4 + q4 * s6
+        p0, p1, p2, p3, p4 = c0 * b0, c0 * b1 + c1 * b0, c0 * b2 + c1 * b1 + c2 * b0, c1 * b2 + c2 * b1, c2 * b2
+        p0, p1, p2 = push * (p0 * s0 + p2 * s2 + p4 * s4), push * (p1 * s2 + p3 * s4), push * (p0 * s2 + p2 * s4 + p4 * s6)
+        i3 += b0 * second + b1 * square1 + b2 * square2
+        f3 = along(along(along(along(f3, p0, w), p1, turn), -2.0 * second, b), -2.0 * square1, c)
         m3 = along(along(along(m3, p0, still), p1, mixed), p2, turned)
-        m3 = along(along(m3, -second, cross(x, out)), -square1, cross(e, out))
+        m3 = along(along(m3, -2.0 * second, cross(x, b)), -2.0 * square1, add(cross(x, c), cross(e, b)))
+        m3 = along(m3, -2.0 * square2, cross(e, c))
     if region == CORNER:
         more, force, moment = _past_corner(x, e, half, w, turn, scratch, which, count, normal, place, reach)
         i4, f4, m4 = i4 + more, add(f4, force), add(m4, moment)
@@ -242,16 +237,17 @@ def _whole_line(sums, radius, other, bare, modulus, sharp):
     width, their, yielded = BLEND * (radius + other), 0.0, 0.0
     if other > 0.0:
         their, yielded = 1.0 / other, log(1.0 + (radius / other) ** 8) / sharp
-    # how far, in the mean, the line lies beyond the border of the cap: the curvature of the rim comes in, and the share of the
-    # other's edge. (The mean square would count the rims round which a line over the face runs out at its ends: they lie along it.)
-    # The mean enters squared, so that nothing has a kink where a parallel line passes the border
-    mean = i3 / (i2 * width)
-    across, across_slope = _levelled(1.0 if bare else mean * mean)
+    # how far, in the mean square, the line lies beyond the border of the cap (the plain mean would have a kink where a parallel
+    # line passes the border): the curvature of the rim comes in, and the share of the other's edge. To the power of 3/2, so that
+    # little of it counts: the rims round which a line over the face runs out at its ends lie along it
+    mean = i3 / (i2 * width * width)
+    root = sqrt(mean)
+    across, across_slope = _levelled(1.0 if bare else mean * root)
     beyond, beyond_slope = _levelled(i4 / (i2 * width * width))
     energy, by_first, by_second, by_curvature = line_energy(modulus, i1, i2, 1.0 / radius + across * their)
     share = exp(-yielded * across)
     kept = share * (1.0 - beyond)  # past a corner it is the corner that presses, a vertex of its own
-    by_side = 2.0 * mean * (by_curvature * their - energy * yielded) * kept * across_slope / (i2 * width)
+    by_side = 1.5 * root * (by_curvature * their - energy * yielded) * kept * across_slope / (i2 * width * width)
     by_corner = -energy * share * beyond_slope / (width * width * i2)
     by_first *= kept
     by_second = by_second * kept - (by_side * i3 + by_corner * i4) / i2
