@@ -1,11 +1,13 @@
 """Compiled doors to functions of the package that Python cannot call (`device`, `item`): thin, one call each."""
 
+from math import sqrt
+
 import numpy as np
 
 from dilatedem.contact.closest import closest_points
 from dilatedem.contact.collide import separation
 from dilatedem.contact.consistent.cap import CORNERS, facing, lay_sides, nearest, overhang
-from dilatedem.contact.consistent.face import press_face
+from dilatedem.contact.consistent.face import any_rim, press_face, strongest_rim
 from dilatedem.contact.consistent.join import pose_energy
 from dilatedem.contact.consistent.line import line_energy, press_edge
 from dilatedem.contact.consistent.point import elliptic, press_vertex
@@ -112,8 +114,16 @@ def edge_on_cap(p, e, length, radius, scratch, count, normal, other, modulus, sh
 
 @kernel
 def face_on_cap(scratch, count_a, normal_a, count_b, normal_b, reach, overlap, modulus):
-    """`press_face`."""
-    return press_face(scratch, count_a, normal_a, count_b, normal_b, reach, overlap, modulus)
+    """`press_face`: energy, force, moment, area, spread; `strongest_rim` and `any_rim` of its patch."""
+    energy, force, moment, area, spread, (count, now, tilt) = press_face(
+        scratch, count_a, normal_a, count_b, normal_b, reach, modulus
+    )
+    rims = any_rims = 0.0, 0.0
+    if energy > 0.0:
+        beyond = sqrt(2.0 * reach * overlap)
+        rims = strongest_rim(scratch[now], count, beyond, tilt * beyond, overlap)
+        any_rims = any_rim(scratch[now], count, beyond, tilt, overlap)
+    return energy, force, moment, area, spread, rims, any_rims
 
 
 @kernel

@@ -114,8 +114,9 @@ def lay_sides(scratch, which, count):
     for i in range(count):
         e = sub(corner_of(scratch, which, i + 1 if i + 1 < count else 0), corner_of(scratch, which, i))
         length = sqrt(dot(e, e))
+        unit = 1.0 / length if length > 0.0 else 0.0
         for m in range(3):
-            scratch[SIDES + which, i, m] = e[m] / length if length > 0.0 else 0.0
+            scratch[SIDES + which, i, m] = e[m] * unit
 
 
 @device

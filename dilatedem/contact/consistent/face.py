@@ -13,6 +13,8 @@ from dilatedem.numerics.vector import add, along, cross, dot, scale, sub, tangen
 #: shape factor of a square punch, F = 2 E* BETA sqrt(A/pi) overlap (physics: rectangles 1.018, 1.045, 1.184, 1.321 at aspect ratios
 #: 1, 2, 5.6, 10; the fourth root below gives 1.018, 1.048, 1.202, 1.343)
 BETA = 1.018
+#: rows of `scratch` that hold the fences that cut and the corners of b in the contact plane, until the caps' sides are laid there
+FENCES, BORDER = 4, 5
 #: distance, m, by which face b reaches beyond its own border in the clipping. Floes at one height have borders that coincide
 #: exactly; round-off would choose whose border cuts the patch, and with it the side to which its pressure pushes
 MARGIN = 1e-4
@@ -23,18 +25,21 @@ SHARPEST = 0.5
 ON = 1e-10
 #: sine of the angle of two sides of a patch, and length of one, m, below which nothing is divided by them
 NEEDLE = 1e-9
+#: m4, the same of the squared product of two lengths
+TINY = 1e-60
 #: cosine of the angle between the faces beyond which they do not press face on face
 STEEP = 0.1
 
 
 @device
-def _centre(polygon, count, d0, gu, gv):
-    """Centre of a linear overlap d0 + gu u + gv v over a polygon, and its integral; about the polygon's first corner."""
-    m00 = m10 = m01 = m20 = m11 = m02 = 0.0
-    x2, y2 = polygon[1, 0] - polygon[0, 0], polygon[1, 1] - polygon[0, 1]
+def _moments(polygon, count):
+    """Integrals of u^i v^j over a polygon about its first corner, i + j <= 3: 1, u, v, uu, uv, vv, uuu, uuv, uvv, vvv."""
+    m00 = m10 = m01 = m20 = m11 = m02 = m30 = m21 = m12 = m03 = 0.0
+    u0, v0 = polygon[0, 0], polygon[0, 1]
+    x2, y2 = polygon[1, 0] - u0, polygon[1, 1] - v0
     for i in range(2, count):
         x1, y1 = x2, y2
-        x2, y2 = polygon[i, 0] - polygon[0, 0], polygon[i, 1] - polygon[0, 1]
+        x2, y2 = polygon[i, 0] - u0, polygon[i, 1] - v0
         c = x1 * y2 - x2 * y1
         sx, sy = x1 + x2, y1 + y2
         m00 += c
@@ -43,104 +48,97 @@ def _centre(polygon, count, d0, gu, gv):
         m20 += c * (sx * sx - x1 * x2)
         m11 += c * (sx * sy + x1 * y1 + x2 * y2)
         m02 += c * (sy * sy - y1 * y2)
-    first = d0 * m00 / 2.0 + (gu * m10 + gv * m01) / 6.0
-    if not first > 0.0:
-        return 0.0, 0.0, 0.0
-    u = (d0 * m10 / 6.0 + gu * m20 / 12.0 + gv * m11 / 24.0) / first
-    v = (d0 * m01 / 6.0 + gu * m11 / 24.0 + gv * m02 / 12.0) / first
-    return first, u, v
-
-
-@device
-def _moments(polygon, count, u0, v0):
-    """Integrals of u^i v^j over a polygon about (u0, v0), i + j <= 3, in the order 1, u, v, uu, uv, vv, uuu, uuv, uvv, vvv."""
-    m00 = m10 = m01 = m20 = m11 = m02 = m30 = m21 = m12 = m03 = 0.0
-    x2, y2 = polygon[count - 1, 0] - u0, polygon[count - 1, 1] - v0
-    for i in range(count):
-        x1, y1 = x2, y2
-        x2, y2 = polygon[i, 0] - u0, polygon[i, 1] - v0
-        c = x1 * y2 - x2 * y1
-        sx, sy = x1 + x2, y1 + y2
-        xx, yy = x1 * x1 + x1 * x2 + x2 * x2, y1 * y1 + y1 * y2 + y2 * y2
-        m00 += c
-        m10 += c * sx
-        m01 += c * sy
-        m20 += c * xx
-        m11 += c * (sx * sy + x1 * y1 + x2 * y2)
-        m02 += c * yy
         m30 += c * sx * (x1 * x1 + x2 * x2)
         m03 += c * sy * (y1 * y1 + y2 * y2)
         m21 += c * (x1 * x1 * (3.0 * y1 + y2) + 2.0 * x1 * x2 * sy + x2 * x2 * (y1 + 3.0 * y2))
         m12 += c * (y1 * y1 * (3.0 * x1 + x2) + 2.0 * y1 * y2 * sx + y2 * y2 * (x1 + 3.0 * x2))
     return (
-        m00 / 2.0, m10 / 6.0, m01 / 6.0, m20 / 12.0, m11 / 24.0, m02 / 12.0, m30 / 20.0, m21 / 60.0, m12 / 60.0, m03 / 20.0,
+        m00 * 0.5, m10 * (1.0 / 6.0), m01 * (1.0 / 6.0), m20 * (1.0 / 12.0), m11 * (1.0 / 24.0), m02 * (1.0 / 12.0),
+        m30 * 0.05, m21 * (1.0 / 60.0), m12 * (1.0 / 60.0), m03 * 0.05,
     )  # fmt: skip
 
 
 @device
-def _fence(scratch, k, count, origin, t1, t2, normal):
-    """Side k of face b, moved out by MARGIN, as a u + b v = limit with the unit vector (a, b) pointing out."""
-    p = corner_of(scratch, 1, k)
-    e = sub(corner_of(scratch, 1, k + 1 if k + 1 < count else 0), p)
-    out, d = cross(e, normal), sub(p, origin)
-    a, b = dot(out, t1), dot(out, t2)
+def _shifted(m, u, v):
+    """Moments as of `_moments` about a point that lies at (u, v) from where they are taken about."""
+    m0, m1, m2, m3, m4, m5, m6, m7, m8, m9 = m
+    n1, n2 = m1 - u * m0, m2 - v * m0
+    n3, n4, n5 = m3 - u * (m1 + n1), m4 - u * m2 - v * n1, m5 - v * (m2 + n2)
+    n6 = m6 - u * (3.0 * (m3 - u * m1) + u * u * m0)
+    n7 = m7 - u * (2.0 * m4 - u * m2) - v * n3
+    n8 = m8 - v * (2.0 * m4 - v * m1) - u * n5
+    n9 = m9 - v * (3.0 * (m5 - v * m2) + v * v * m0)
+    return m0, n1, n2, n3, n4, n5, n6, n7, n8, n9
+
+
+@device
+def _clip(scratch, now, count, fences, a, b, limit):
+    """Clip the patch in buffer `now` by a u + b v <= limit, (a, b) a unit vector, and note it among the fences that cut; returns
+    its corner count, its buffer and the number of fences."""
+    scratch[FENCES, fences, 0], scratch[FENCES, fences, 1], scratch[FENCES, fences, 2] = a, b, limit
+    return clip_polygon(scratch[now], count, scratch[1 - now], a, b, 0.0, limit), 1 - now, fences + 1
+
+
+@item
+def _outmost(scratch, now, count, a, b):
+    """Largest a u + b v of the patch in buffer `now`."""
+    most = a * scratch[now, 0, 0] + b * scratch[now, 0, 1]
+    for i in range(1, count):
+        most = max(most, a * scratch[now, i, 0] + b * scratch[now, i, 1])
+    return most
+
+
+@device
+def _bevel(eu, ev, fu, fv):
+    """Whether the corner between two sides (eu, ev) and (fu, fv) of face b is sharp, and the outward unit vector across it."""
+    c = eu * fu + ev * fv
+    ee, ff = eu * eu + ev * ev, fu * fu + fv * fv
+    if c >= 0.0 or c * c <= SHARPEST * SHARPEST * ee * ff:
+        return False, 0.0, 0.0
+    ee, ff = 1.0 / sqrt(ee), 1.0 / sqrt(ff)
+    a, b = eu * ee - fu * ff, ev * ee - fv * ff
     unit = 1.0 / sqrt(a * a + b * b)
-    a, b = a * unit, b * unit
-    return a, b, a * dot(d, t1) + b * dot(d, t2) + MARGIN
-
-
-@device
-def _bevel(scratch, k, count, origin, t1, t2):
-    """Whether the corner at the end of side k of face b is sharp, and the fence across it, as `_fence` gives it."""
-    p, q = corner_of(scratch, 1, k), corner_of(scratch, 1, k + 1 if k + 1 < count else 0)
-    e, f = sub(q, p), sub(corner_of(scratch, 1, (k + 2) % count), q)
-    c = dot(e, f)
-    if c >= 0.0 or c * c <= SHARPEST * SHARPEST * dot(e, e) * dot(f, f):
-        return False, 0.0, 0.0, 0.0
-    out = sub(scale(1.0 / sqrt(dot(e, e)), e), scale(1.0 / sqrt(dot(f, f)), f))
-    unit = 1.0 / sqrt(dot(out, out))
-    a, b, d = unit * dot(out, t1), unit * dot(out, t2), sub(q, origin)
-    return True, a, b, a * dot(d, t1) + b * dot(d, t2) + MARGIN / sqrt(0.5 * (1.0 - SHARPEST))
-
-
-@device
-def _cut(scratch, now, count, a, b, limit):
-    """Clip the patch in buffer `now` by a u + b v <= limit; returns its corner count, its buffer, and whether that cut anything."""
-    for i in range(count):
-        if a * scratch[now, i, 0] + b * scratch[now, i, 1] > limit:
-            return clip_polygon(scratch[now], count, scratch[1 - now], a, b, 0.0, limit), 1 - now, True
-    return count, now, False
+    return True, a * unit, b * unit
 
 
 @item
 def _patch(scratch, count_a, count_b, origin, t1, t2, normal, reach):
-    """Clip face a by the sides of face b, then by where the overlap ends; returns the corner count, the buffer that holds it and
-    the sides of b that cut, as bits, and the sharp corners.
+    """Clip face a by the sides of face b, then by where the overlap ends; returns the corner count, the buffer that holds the patch
+    and the number of fences that cut it (a, b, limit in FENCES): sides of b moved out by MARGIN, bevels of its sharp corners.
 
     Rows: u, v and the overlap.
     """
     for i in range(count_a):
         d = sub(corner_of(scratch, 0, count_a - 1 - i), origin)  # seen from b's side a's loop runs clockwise
         scratch[0, i, 0], scratch[0, i, 1], scratch[0, i, 2] = dot(d, t1), dot(d, t2), reach - dot(d, normal)
-    count, now, cut, bevelled = count_a, 0, 0, 0
+    for i in range(count_b):
+        d = sub(corner_of(scratch, 1, i), origin)
+        scratch[BORDER, i, 0], scratch[BORDER, i, 1] = dot(d, t1), dot(d, t2)
+    count, now, fences = count_a, 0, 0
     for k in range(count_b):
-        a, b, limit = _fence(scratch, k, count_b, origin, t1, t2, normal)
-        count, now, outside = _cut(scratch, now, count, a, b, limit)
-        if outside:
-            cut |= 1 << (k & 63)
-        sharp, a, b, limit = _bevel(scratch, k, count_b, origin, t1, t2)
-        if sharp:
-            count, now, outside = _cut(scratch, now, count, a, b, limit)
-            if outside:
-                bevelled |= 1 << (k & 63)
+        j = k + 1 if k + 1 < count_b else 0
+        p, q, u, v = scratch[BORDER, k, 0], scratch[BORDER, k, 1], scratch[BORDER, j, 0], scratch[BORDER, j, 1]
+        eu, ev = u - p, v - q
+        # how far out the patch reaches, times the length of the side: no root where it does not
+        out, square = _outmost(scratch, now, count, ev, -eu) - (ev * p - eu * q), eu * eu + ev * ev
+        if out > 0.0 and out * out > MARGIN * MARGIN * square:
+            unit = 1.0 / sqrt(square)
+            a, b = ev * unit, -eu * unit
+            count, now, fences = _clip(scratch, now, count, fences, a, b, a * p + b * q + MARGIN)
+        j = j + 1 if j + 1 < count_b else 0
+        sharp, a, b = _bevel(eu, ev, scratch[BORDER, j, 0] - u, scratch[BORDER, j, 1] - v)
+        if sharp and count > 0:
+            limit = a * u + b * v + MARGIN / sqrt(0.5 * (1.0 - SHARPEST))
+            if _outmost(scratch, now, count, a, b) > limit:
+                count, now, fences = _clip(scratch, now, count, fences, a, b, limit)
         if count < 3:
-            return 0, now, cut, bevelled
+            return 0, now, fences
     for i in range(count):
         if scratch[now, i, 2] < 0.0:
             count = clip_polygon(scratch[now], count, scratch[1 - now], 0.0, 0.0, -1.0, 0.0)
             now = 1 - now
             break
-    return count, now, cut, bevelled
+    return count, now, fences
 
 
 @device
@@ -148,12 +146,14 @@ def _punch(first, second, juu, juv, jvv, modulus):
     """Energy of a patch from the integrals of its overlap and of its square and the overlap's second moments about its centre;
     derivatives by them: first, second, juu, juv, jvv.
     """
-    trace, determinant = juu + jvv, juu * jvv - juv * juv
-    shape = 0.5 * trace / sqrt(determinant)
-    energy = modulus * BETA / sqrt(pi) * sqrt(sqrt(0.5 * (shape + 1.0))) * second * sqrt(second) / first
-    rise = 0.25 * energy * shape / (shape + 1.0)
-    quu, qvv = rise * (1.0 / trace - 0.5 * jvv / determinant), rise * (1.0 / trace - 0.5 * juu / determinant)
-    return energy, (-energy / first, 1.5 * energy / second, quu, rise * juv / determinant, qvv)
+    trace, inverse = juu + jvv, 1.0 / sqrt(juu * jvv - juv * juv)
+    shape = 0.5 * trace * inverse
+    energy = modulus * (BETA / sqrt(pi)) * sqrt(sqrt(0.5 * (shape + 1.0))) * second * sqrt(second) / first
+    rise = 0.25 * energy * inverse / (shape + 1.0)
+    bend = rise * shape * inverse
+    return energy, (
+        -energy / first, 1.5 * energy / second, 0.5 * (rise - bend * jvv), bend * juv, 0.5 * (rise - bend * juu)
+    )  # fmt: skip
 
 
 @device
@@ -167,8 +167,30 @@ def _resultant(pressure, m, d0, gu, gv):
     return total, total_u, total_v
 
 
+@item
+def any_rim(polygon, count, beyond, tilt, overlap):
+    """Larger bounds than those of `strongest_rim`, for a fraction of its time: every side goes on as past the sharpest corner, at
+    the deepest overlap. tilt: slope of the overlap."""
+    lift, last = tilt * beyond, count - 1
+    eu, ev = polygon[last, 0] - polygon[last - 1, 0], polygon[last, 1] - polygon[last - 1, 1]
+    u, v, d = polygon[last, 0], polygon[last, 1], min(polygon[last, 2] + lift, overlap)
+    before = eu * eu + ev * ev
+    longest, strongest, sharpest, deepest = 0.0, 0.0, 1.0, 0.0
+    for i in range(count):
+        fu, fv = polygon[i, 0] - u, polygon[i, 1] - v
+        u, v, e = polygon[i, 0], polygon[i, 1], min(polygon[i, 2] + lift, overlap)
+        square, area, mean = fu * fu + fv * fv, eu * fv - ev * fu, d * d + d * e + e * e
+        # squared sine; two corners in one place have no angle
+        sharpest = min(sharpest, area * area / max(before * square, TINY))
+        longest, strongest, deepest = max(longest, square), max(strongest, square * mean * mean), max(deepest, e)
+        eu, ev, before, d = fu, fv, square, e
+    way = beyond / max(sqrt(sharpest), NEEDLE)
+    deepest = min(deepest + tilt * way, overlap)
+    return sqrt(strongest) * (1.0 / 3.0) + 2.0 * way * deepest * deepest, sqrt(longest) + 2.0 * way
+
+
 @device
-def _strongest_rim(polygon, count, beyond, lift, overlap):
+def strongest_rim(polygon, count, beyond, lift, overlap):
     """Bounds for any edge that presses where a patch has its rim: integral of the squared overlap along it [m3], its length [m].
 
     Every edge of one face that lies over the other is a side of the patch, and one that runs past the other face by no more than
@@ -212,83 +234,86 @@ def _direction(u, v):
 
 
 @item
-def press_face(scratch, count_a, normal_a, count_b, normal_b, reach, overlap, modulus):
-    """Energy W [J] of face a on face b (or on a half space), force on a's body and its moment about the origin, area,
-    what its rims can press as edges (see `_strongest_rim`), spread as of `join.pose_energy`.
+def press_face(scratch, count_a, normal_a, count_b, normal_b, reach, modulus):
+    """Energy W [J] of face a on face b (or on a half space), force on a's body and its moment about the origin, area, spread as of
+    `join.pose_energy`; the patch: its corner count, the row of `scratch` that holds it and the slope of the overlap.
 
     normal_a, normal_b: outward. W = E* BETA sqrt(A/pi) shape I2/A with A = I1^2/I2, the integrals of the overlap and of its square,
     and shape = ((T + 1)/2)^(1/4), T from the overlap's second moments: (aspect ratio + its inverse)/2 for a rectangle.
     """
     none = (0.0, 0.0, 0.0)
-    if -dot(normal_a, normal_b) < STEEP:
-        return 0.0, none, none, 0.0, (0.0, 0.0), (none, none)
+    nothing = 0.0, none, none, 0.0, (none, none), (0, 0, 0.0)
+    slope = dot(normal_a, normal_b)
+    if -slope < STEEP:
+        return nothing
     t1, t2 = tangents(normal_b)
     origin = corner_of(scratch, 1, 0)
-    count, now, cut, bevelled = _patch(scratch, count_a, count_b, origin, t1, t2, normal_b, reach)
+    count, now, fences = _patch(scratch, count_a, count_b, origin, t1, t2, normal_b, reach)
     if count < 3:
-        return 0.0, none, none, 0.0, (0.0, 0.0), (none, none)
+        return nothing
     polygon = scratch[now]
     # the overlap is linear: its slopes from a's plane
-    slope = dot(normal_a, normal_b)
-    gu, gv = dot(normal_a, t1) / slope, dot(normal_a, t2) / slope
+    slope = 1.0 / slope
+    gu, gv = dot(normal_a, t1) * slope, dot(normal_a, t2) * slope
     d0 = polygon[0, 2]
-    first, du, dv = _centre(polygon, count, d0, gu, gv)
-    if first == 0.0:
-        return 0.0, none, none, 0.0, (0.0, 0.0), (none, none)
+    m = _moments(polygon, count)
+    first = d0 * m[0] + gu * m[1] + gv * m[2]
+    if not first > 0.0:
+        return nothing
+    du, dv = (d0 * m[1] + gu * m[3] + gv * m[4]) / first, (d0 * m[2] + gu * m[4] + gv * m[5]) / first
+    m = _shifted(m, du, dv)
     d0 += gu * du + gv * dv
     u0, v0 = polygon[0, 0] + du, polygon[0, 1] + dv
-    beyond = sqrt(2.0 * reach * overlap)
-    rims = _strongest_rim(polygon, count, beyond, sqrt(gu * gu + gv * gv) * beyond, overlap)
-    m = _moments(polygon, count, u0, v0)
-    first = d0 * m[0] + gu * m[1] + gv * m[2]
-    second = d0 * d0 * m[0] + 2.0 * d0 * (gu * m[1] + gv * m[2]) + gu * gu * m[3] + 2.0 * gu * gv * m[4] + gv * gv * m[5]
     juu = d0 * m[3] + gu * m[6] + gv * m[7]
     juv = d0 * m[4] + gu * m[7] + gv * m[8]
     jvv = d0 * m[5] + gu * m[8] + gv * m[9]
+    second = d0 * d0 * m[0] + 2.0 * d0 * (gu * m[1] + gv * m[2]) + gu * gu * m[3] + 2.0 * gu * gv * m[4] + gv * gv * m[5]
     if not (second > 0.0 and juu * jvv - juv * juv > 0.0):
-        return 0.0, none, none, 0.0, (0.0, 0.0), (none, none)
+        return nothing
     energy, pressure = _punch(first, second, juu, juv, jvv, modulus)
     total, total_u, total_v = _resultant(pressure, m, d0, gu, gv)
-    centre = add(origin, along(scale(u0, t1), v0, t2))
     # on a: along b's normal, at (u, v) of b's plane
-    force = scale(total, normal_b)
-    moment = add(cross(centre, force), cross(along(scale(total_u, t1), total_v, t2), normal_b))
-    plane = u0, v0, d0, gu, gv
-    for k in range(count_b):
-        if cut >> (k & 63) & 1:
-            fence = _fence(scratch, k, count_b, origin, t1, t2, normal_b)
-            force, moment = _border(polygon, count, fence, origin, t1, t2, normal_b, reach, force, moment, plane, pressure)
-        if bevelled >> (k & 63) & 1:
-            sharp, across, along_it, limit = _bevel(scratch, k, count_b, origin, t1, t2)
-            if sharp:
-                fence = across, along_it, limit
-                force, moment = _border(polygon, count, fence, origin, t1, t2, normal_b, reach, force, moment, plane, pressure)
+    wrench = 0.0, 0.0, total_v + v0 * total, -total_u - u0 * total, 0.0
+    for k in range(fences):
+        wrench = _border(scratch, now, count, k, reach, wrench, (u0, v0, d0, gu, gv), pressure)
+    fu, fv, mu, mv, mn = wrench
+    force = along(along(scale(total, normal_b), fu, t1), fv, t2)
+    moment = add(cross(origin, force), along(along(scale(mn, normal_b), mu, t1), mv, t2))
     # the second moments as squares of two vectors (Cholesky)
-    one = sqrt(juu / first)
-    two = juv / (first * one)
-    spread = along(scale(one, t1), two, t2), scale(sqrt(max(jvv / first - two * two, 0.0)), t2)
-    return energy, force, moment, first * first / second, rims, spread
+    unit = 1.0 / first
+    one = sqrt(juu * unit)
+    two = juv * unit / one
+    spread = along(scale(one, t1), two, t2), scale(sqrt(max(jvv * unit - two * two, 0.0)), t2)
+    return energy, force, moment, first * first / second, spread, (count, now, sqrt(gu * gu + gv * gv))
 
 
 @item
-def _border(polygon, count, fence, origin, t1, t2, normal, reach, force, moment, plane, pressure):
-    """Add the push along the contact plane where the patch ends at a side of face b: moving out, face a loses contact there."""
+def _border(scratch, now, count, k, reach, wrench, plane, pressure):
+    """Add the push along the contact plane where the patch ends at fence k: moving out, face a loses contact there.
+
+    wrench: force along u and v, moment about b's first corner along u, v and the normal.
+    """
+    fu, fv, mu, mv, mn = wrench
     u0, v0, d0, gu, gv = plane
     p0, p1, quu, quv, qvv = pressure
-    a, b, limit = fence
-    out = along(scale(a, t1), b, t2)
+    a, b, limit = scratch[FENCES, k, 0], scratch[FENCES, k, 1], scratch[FENCES, k, 2]
+    x, y = scratch[now, count - 1, 0], scratch[now, count - 1, 1]
+    on = abs(a * x + b * y - limit) <= ON
     for i in range(count):
-        j = i + 1 if i + 1 < count else 0
-        if abs(a * polygon[i, 0] + b * polygon[i, 1] - limit) > ON or abs(a * polygon[j, 0] + b * polygon[j, 1] - limit) > ON:
+        x1, y1, on1 = x, y, on
+        x, y = scratch[now, i, 0], scratch[now, i, 1]
+        on = abs(a * x + b * y - limit) <= ON
+        if not (on and on1):
             continue
-        eu, ev = polygon[j, 0] - polygon[i, 0], polygon[j, 1] - polygon[i, 1]
+        eu, ev = x - x1, y - y1
         length = sqrt(eu * eu + ev * ev)
         for g in range(2):
             t = 0.5 + (g - 0.5) * 0.5773502691896257
-            u, v = polygon[i, 0] + t * eu - u0, polygon[i, 1] + t * ev - v0
+            u, v = x1 + t * eu - u0, y1 + t * ev - v0
             overlap = d0 + gu * u + gv * v
             push = 0.5 * length * overlap * (p0 + p1 * overlap + quu * u * u + quv * u * v + qvv * v * v)
-            at = along(along(add(origin, scale(u + u0, t1)), v + v0, t2), reach - overlap, normal)
-            sideways = scale(push, out)
-            force, moment = add(force, sideways), add(moment, cross(at, sideways))
-    return force, moment
+            height = reach - overlap
+            fu, fv = fu + push * a, fv + push * b
+            mu, mv = mu - push * height * b, mv + push * height * a
+            mn += push * ((u + u0) * b - (v + v0) * a)
+    return fu, fv, mu, mv, mn

@@ -7,12 +7,12 @@ the largest where two are equal and equal to it where one leads; a feature of le
 from math import log, pi, sqrt
 
 from dilatedem.contact.consistent.cap import CORNERS, UNBOUNDED, corner_of, facing, lay_out, lay_sides, nearest, side_of
-from dilatedem.contact.consistent.face import press_face
-from dilatedem.contact.consistent.line import line_compliance, press_edge
+from dilatedem.contact.consistent.face import any_rim, press_face, strongest_rim
+from dilatedem.contact.consistent.line import BASE, BEND, LEVEL, line_compliance, press_edge
 from dilatedem.contact.consistent.point import press_vertex
 from dilatedem.contact.support import PARALLEL
 from dilatedem.jit import device, item
-from dilatedem.numerics.vector import along, cross, dot, load, norm, scale, sub
+from dilatedem.numerics.vector import along, cross, dot, load, scale, sub
 from dilatedem.state.modes import Mode
 
 #: exponent of the norm
@@ -23,6 +23,9 @@ HERTZ = 8.0 / 15.0
 FAR = 1e100
 #: share of the largest energy below which a feature is left out: its force would be 0.5^15 = 3e-5 of its own
 NEGLECTED = 0.5
+
+#: `line_compliance`, or a little less, at L^2/(R* overlap) = 1e2, 1e3, 1e4, 1e5
+SLENDER_2, SLENDER_3, SLENDER_4, SLENDER_5 = (BASE + log(x) + BEND * log(x) / (log(x) + LEVEL) for x in (1e2, 1e3, 1e4, 1e5))
 
 VERTEX_VERTEX, VERTEX_EDGE, VERTEX_FACE = int(Mode.VERTEX_VERTEX), int(Mode.VERTEX_EDGE), int(Mode.VERTEX_FACE)
 EDGE_CROSSING, EDGE_PARALLEL = int(Mode.EDGE_CROSSING), int(Mode.EDGE_PARALLEL)
@@ -62,9 +65,43 @@ def _line_bound(modulus, second, length, overlap, curvature):
 
 
 @device
+def _surely_below(modulus, second, length, overlap, radius, least):
+    """Whether `_line_bound` is below `least`, told without its logarithm; False where that cannot tell."""
+    short = min(second, length * overlap * overlap)  # the shorter length, times the squared overlap
+    x, unit = short * short, overlap * overlap * overlap * overlap * overlap * radius
+    compliance = SLENDER_2
+    if x > 1e5 * unit:
+        compliance = SLENDER_5
+    elif x > 1e4 * unit:
+        compliance = SLENDER_4
+    elif x > 1e3 * unit:
+        compliance = SLENDER_3
+    elif x < 1e2 * unit:
+        return False
+    return 0.5 * pi * modulus * second < least * compliance
+
+
+@device
 def _point_bound(modulus, overlap, radius):
     """Upper bound of the energy of a vertex that presses by at most `overlap`."""
     return HERTZ * modulus * overlap * overlap * sqrt(overlap * radius)
+
+
+@item
+def _rims_count(scratch, patch, reach, overlap, bluntest, modulus, least):
+    """Whether an edge or a vertex beside a patch can have an energy of `least` [J], and the length that none of the contacts of
+    edges exceeds [m].
+
+    patch: as `press_face` returns it; bluntest: the larger radius.
+    """
+    count, now, tilt = patch
+    beyond = sqrt(2.0 * reach * overlap)
+    pointed = _point_bound(modulus, overlap, bluntest) >= least
+    second, longest = any_rim(scratch[now], count, beyond, tilt, overlap)
+    if not pointed and _surely_below(modulus, second, longest, overlap, bluntest, least):
+        return False, longest
+    second, longest = strongest_rim(scratch[now], count, beyond, tilt * beyond, overlap)
+    return pointed or _line_bound(modulus, second, longest, overlap, 1.0 / bluntest) >= least, longest
 
 
 @device
@@ -92,7 +129,7 @@ def _press_rims(own, scratch, count, radius, their, other, normal, overlap, long
     for i in range(count if count > 2 else count - 1):
         p, e = corner_of(scratch, own, i), side_of(scratch, own, i)
         d = sub(corner_of(scratch, own, i + 1 if i + 1 < count else 0), p)
-        length = norm(d)
+        length = dot(d, e)
         if flat:
             # overlaps of its ends with the plane of the other cap
             u = reach - dot(sub(p, corner_of(scratch, which, 0)), normal)
@@ -100,9 +137,17 @@ def _press_rims(own, scratch, count, radius, their, other, normal, overlap, long
             deepest = max(u, v)
             if deepest <= 0.0:
                 continue
-            pressed = min(length if min(u, v) >= 0.0 else length * deepest / abs(u - v), longest)
-            deepest = min(deepest, overlap)
-            if _line_bound(modulus, pressed * deepest * deepest, pressed, deepest, 1.0 / radius) < NEGLECTED * largest:
+            shallow, pressed = min(u, v), length
+            if shallow < 0.0:
+                shallow, pressed = 0.0, length * deepest / abs(u - v)
+            # the overlap with the plane falls from the one to the other
+            second = pressed * (deepest * deepest + deepest * shallow + shallow * shallow) / 3.0
+            pressed, deepest = min(pressed, longest), min(deepest, overlap)
+            second = min(second, pressed * deepest * deepest)
+            least = NEGLECTED * largest
+            if _surely_below(modulus, second, pressed, deepest, radius, least):
+                continue
+            if _line_bound(modulus, second, pressed, deepest, 1.0 / radius) < least:
                 continue
         energy, more, turn, line, across = press_edge(p, e, length, radius, scratch, which, their, normal, other, modulus, SHARP)
         if energy > NEGLECTED * largest:
@@ -159,15 +204,13 @@ def pose_energy(
             normal_b = load(face_normal, fb)
     reach = ra + rb
     sums = 0.0, 0.0, NONE, NONE, VERTEX_FACE, 1.0, (NONE, NONE)
-    rims, longest = FAR, FAR
+    longest, bluntest, needed = FAR, max(ra, rb), True
     if fa >= 0 and (fb >= 0 or half_space):
-        energy, more, turn, area, bound, spread = press_face(scratch, na, normal_a, nb, normal_b, reach, overlap, modulus)
+        energy, more, turn, area, spread, patch = press_face(scratch, na, normal_a, nb, normal_b, reach, modulus)
         if energy > 0.0:
             sums = energy, 1.0, scale(-1.0, more), scale(-1.0, turn), FACE_FACE, area, spread
-            rims, longest = bound
-    bluntest = max(ra, rb)
-    least = NEGLECTED * sums[0]
-    if _line_bound(modulus, rims, longest, overlap, 1.0 / bluntest) >= least or _point_bound(modulus, overlap, bluntest) >= least:
+            needed, longest = _rims_count(scratch, patch, reach, overlap, bluntest, modulus, NEGLECTED * energy)
+    if needed:
         lay_sides(scratch, 0, na)
         lay_sides(scratch, 1, nb)
         sums = _press_rims(0, scratch, na, ra, nb, rb, normal_b, overlap, longest, modulus, sums)
@@ -176,6 +219,8 @@ def pose_energy(
     largest, total, force, moment, mode, size, spread = sums
     if largest == 0.0:
         return 0.0, NONE, NONE, mode, size, spread
-    root = total ** (1.0 / SHARP)
+    if total == 1.0:  # one feature
+        return largest, force, moment, mode, size, spread
+    root = sqrt(sqrt(sqrt(sqrt(total))))
     share = root / total
     return largest * root, scale(share, force), scale(share, moment), mode, size, spread

@@ -1,12 +1,12 @@
 """Energy of an edge that presses on the other body's cap: one law for an edge along a face, along an edge and across an edge.
 
 Along the edge the overlap is a quadratic function of the place, piece by piece (over the cap's face, its sides, its corners), so
-that four Gauss points a piece integrate it and its gradient exactly.
+that it and its gradient are integrated as polynomials.
 """
 
 from math import exp, log, pi, sqrt
 
-from dilatedem.contact.consistent.cap import INTERIOR, SIDE, UNBOUNDED, corner_of, nearest, overhang, side_of
+from dilatedem.contact.consistent.cap import CORNER, INTERIOR, SIDE, UNBOUNDED, corner_of, nearest, overhang, side_of
 from dilatedem.contact.consistent.point import BLEND
 from dilatedem.jit import device, item
 from dilatedem.numerics.vector import add, along, cross, dot, scale, sub
@@ -103,35 +103,73 @@ def _pressing(w, turn, reach, low, high):
     return max(low, (-b - root) / a), min(high, (-b + root) / a)
 
 
+@device
+def _beside(w, region, out, normal):
+    """The part of a vector from a cap that leads beyond its border: across the side with the normal `out`, or from a corner."""
+    return scale(dot(w, out), out) if region == SIDE else along(w, -dot(w, normal), normal)
+
+
+@item
+def _past_corner(x, e, half, w, turn, scratch, which, count, normal, place, reach):
+    """Integral of the squared overlap times the squared way beyond a corner, minus its gradient as force and moment."""
+    i4, f4, m4 = 0.0, NONE, NONE
+    for g in range(4):
+        at = half * (OUTER if g % 2 == 0 else INNER) * (1.0 if g < 2 else -1.0)
+        from_cap, point = along(w, at, turn), along(x, at, e)
+        _, corner, _, gradient = overhang(scratch, which, count, normal, CORNER, place, from_cap, BLEND * reach)
+        if corner > 0.0:
+            overlap = 0.5 * (reach * reach - dot(from_cap, from_cap)) / reach
+            square = half * (LIGHT if g % 2 == 0 else HEAVY) * overlap
+            pull = along(scale(2.0 * square * corner * corner / reach, from_cap), -2.0 * square * overlap * corner, gradient)
+            i4, f4, m4 = i4 + square * overlap * corner * corner, add(f4, pull), add(m4, cross(point, pull))
+    return i4, f4, m4
+
+
 @item
 def _add_piece(sums, x, e, low, high, w, turn, scratch, which, count, normal, region, place, reach):
     """Add low..high of the line x + s e over one region of the cap, w + s turn from the cap to it, to the sums: the integrals of
-    overlap, its square, its square times the squared way beyond a side, and beyond a corner, each with minus its gradient as force
-    and moment on the edge's body.
+    overlap, its square, its square times the squared way beyond the border and beyond a corner, each with minus its
+    gradient as force and moment on the edge's body.
+
+    About the middle of the piece all but the last are polynomials of s whose odd powers integrate to nothing.
     """
-    i1, i2, i3, i4, f1, f2, f3, f4, m1, m2, m3, m4 = sums
+    i1, i2, f1, f2, m1, m2, i3, f3, m3, i4, f4, m4 = sums
     half, middle = 0.5 * (high - low), 0.5 * (high + low)
-    for g in range(4):
-        at = middle + half * (OUTER if g % 2 == 0 else INNER) * (1.0 if g < 2 else -1.0)
-        weight = half * (LIGHT if g % 2 == 0 else HEAVY)
-        from_cap, point = along(w, at, turn), along(x, at, e)
-        overlap = 0.5 * (reach * reach - dot(from_cap, from_cap)) / reach
-        push = scale(weight / reach, from_cap)
-        moment = cross(point, push)
-        i1, f1, m1 = i1 + weight * overlap, add(f1, push), add(m1, moment)
-        i2 += weight * overlap * overlap
-        f2, m2 = along(f2, 2.0 * overlap, push), along(m2, 2.0 * overlap, moment)
-        if region != INTERIOR:
-            side, corner, side_gradient, corner_gradient = overhang(
-                scratch, which, count, normal, region, place, from_cap, BLEND * reach
-            )
-            square = weight * overlap * overlap
-            pull = along(scale(2.0 * overlap * side * side, push), -2.0 * square * side, side_gradient)
-            i3, f3, m3 = i3 + square * side * side, add(f3, pull), add(m3, cross(point, pull))
-            if corner > 0.0:
-                pull = along(scale(2.0 * overlap * corner * corner, push), -2.0 * square * corner, corner_gradient)
-                i4, f4, m4 = i4 + square * corner * corner, add(f4, pull), add(m4, cross(point, pull))
-    return i1, i2, i3, i4, f1, f2, f3, f4, m1, m2, m3, m4
+    x, w = along(x, middle, e), along(w, middle, turn)
+    square = half * half
+    s0 = 2.0 * half
+    s2 = s0 * square * (1.0 / 3.0)
+    s4 = s0 * square * square * 0.2
+    push = 1.0 / reach
+    c0, c1, c2 = 0.5 * push * (reach * reach - dot(w, w)), -push * dot(w, turn), -0.5 * push * dot(turn, turn)
+    q0, q1, q2, q3, q4 = c0 * c0, 2.0 * c0 * c1, c1 * c1 + 2.0 * c0 * c2, 2.0 * c1 * c2, c2 * c2
+    d0, d1, d2 = c0 * s0 + c2 * s2, c1 * s2, c0 * s2 + c2 * s4
+    second = q0 * s0 + q2 * s2 + q4 * s4
+    still, mixed, turned = cross(x, w), add(cross(x, turn), cross(e, w)), cross(e, turn)
+    i1, i2 = i1 + d0, i2 + second
+    f1, m1 = along(f1, push * s0, w), along(along(m1, push * s0, still), push * s2, turned)
+    push *= 2.0
+    f2 = along(along(f2, push * d0, w), push * d1, turn)
+    m2 = along(along(along(m2, push * d0, still), push * d1, mixed), push * d2, turned)
+    if region == INTERIOR or count == UNBOUNDED:
+        return i1, i2, f1, f2, m1, m2, i3, f3, m3, i4, f4, m4
+    if count > 2:
+        out = cross(side_of(scratch, which, place), normal)
+        b, c = _beside(w, region, out, normal), _beside(turn, region, out, normal)
+        b0, b1, b2 = dot(b, b), 2.0 * dot(b, c), dot(c, c)
+        s6 = s0 * square * square * square * (1.0 / 7.0)
+        square1, square2 = q1 * s2 + q3 * s4, q0 * s2 + q2 * s4 + q4 * s6
+        p0, p1, p2, p3, p4 = c0 * b0, c0 * b1 + c1 * b0, c0 * b2 + c1 * b1 + c2 * b0, c1 * b2 + c2 * b1, c2 * b2
+        p0, p1, p2 = push * (p0 * s0 + p2 * s2 + p4 * s4), push * (p1 * s2 + p3 * s4), push * (p0 * s2 + p2 * s4 + p4 * s6)
+        i3 += b0 * second + b1 * square1 + b2 * square2
+        f3 = along(along(along(along(f3, p0, w), p1, turn), -2.0 * second, b), -2.0 * square1, c)
+        m3 = along(along(along(m3, p0, still), p1, mixed), p2, turned)
+        m3 = along(along(m3, -2.0 * second, cross(x, b)), -2.0 * square1, add(cross(x, c), cross(e, b)))
+        m3 = along(m3, -2.0 * square2, cross(e, c))
+    if region == CORNER:
+        more, force, moment = _past_corner(x, e, half, w, turn, scratch, which, count, normal, place, reach)
+        i4, f4, m4 = i4 + more, add(f4, force), add(m4, moment)
+    return i1, i2, f1, f2, m1, m2, i3, f3, m3, i4, f4, m4
 
 
 @item
@@ -154,7 +192,7 @@ def press_edge(p, e, length, radius, scratch, which, count, normal, other, modul
             s = max(s, -z / rate)
         elif z >= 0.0:
             high = 0.0
-    sums = 0.0, 0.0, 0.0, 0.0, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE
+    sums = 0.0, 0.0, NONE, NONE, NONE, NONE, 0.0, NONE, NONE, 0.0, NONE, NONE
     # regions are convex: a line meets each of a side or a corner, and the interior, once (and round-off may look twice)
     for _ in range(2 * count + 4):
         if s >= high:
@@ -174,7 +212,7 @@ def press_edge(p, e, length, radius, scratch, which, count, normal, other, modul
         if stop > begin:
             sums = _add_piece(sums, x, e, begin, stop, w, turn, scratch, which, count, normal, region, place, reach)
         s += max(way, 0.0)
-    return _whole_line(sums, radius, other, modulus, sharp)
+    return _whole_line(sums, radius, other, 1 <= count <= 2, modulus, sharp)
 
 
 @device
@@ -186,23 +224,29 @@ def _levelled(q):
 
 
 @item
-def _whole_line(sums, radius, other, modulus, sharp):
-    """Energy, force, moment, length and place beyond the border of an edge from its integrals; as `press_edge` returns them."""
-    i1, i2, i3, i4, f1, f2, f3, f4, m1, m2, m3, m4 = sums
+def _whole_line(sums, radius, other, bare, modulus, sharp):
+    """Energy, force, moment, length and place beyond the border of an edge from its integrals; as `press_edge` returns them.
+
+    bare: the cap has no face, its rim is all there is.
+    """
+    i1, i2, f1, f2, m1, m2, i3, f3, m3, i4, f4, m4 = sums
     if i2 <= 0.0:
         return 0.0, NONE, NONE, 0.0, 0.0
-    square, their, yielded = (BLEND * (radius + other)) ** 2, 0.0, 0.0
+    width, their, yielded = BLEND * (radius + other), 0.0, 0.0
     if other > 0.0:
         their, yielded = 1.0 / other, log(1.0 + (radius / other) ** 8) / sharp
     # how far, in the mean square, the line lies beyond the border of the cap (the plain mean would have a kink where a parallel
-    # line passes the border): the curvature of the rim comes in, and the share of the other's edge
-    across, across_slope = _levelled(i3 / (i2 * square))
-    beyond, beyond_slope = _levelled(i4 / (i2 * square))
+    # line passes the border): the curvature of the rim comes in, and the share of the other's edge. To the power of 3/2, so that
+    # little of it counts: the rims round which a line over the face runs out at its ends lie along it
+    mean = i3 / (i2 * width * width)
+    root = sqrt(mean)
+    across, across_slope = _levelled(1.0 if bare else mean * root)
+    beyond, beyond_slope = _levelled(i4 / (i2 * width * width))
     energy, by_first, by_second, by_curvature = line_energy(modulus, i1, i2, 1.0 / radius + across * their)
     share = exp(-yielded * across)
     kept = share * (1.0 - beyond)  # past a corner it is the corner that presses, a vertex of its own
-    by_side = (by_curvature * their - energy * yielded) * kept * across_slope / (square * i2)
-    by_corner = -energy * share * beyond_slope / (square * i2)
+    by_side = 1.5 * root * (by_curvature * their - energy * yielded) * kept * across_slope / (i2 * width * width)
+    by_corner = -energy * share * beyond_slope / (width * width * i2)
     by_first *= kept
     by_second = by_second * kept - (by_side * i3 + by_corner * i4) / i2
     force = add(along(scale(by_first, f1), by_second, f2), along(scale(by_side, f3), by_corner, f4))

@@ -17,8 +17,9 @@ def elliptic(trace, determinant):
     Hertz's elliptic contact (Johnson 1985, section 4.2); a fit of its elliptic integrals, within 0.01 % up to a ratio of
     principal curvatures of 300, 0.1 % up to 1000. Circular: sqrt(R).
     """
-    x = log(0.5 * trace / sqrt(determinant))
-    factor = determinant**-0.25 * exp(x * (0.16597 + x * (0.0395 - 0.002636 * x)))
+    root = sqrt(determinant)
+    x = log(0.5 * trace / root)
+    factor = exp(x * (0.16597 + x * (0.0395 - 0.002636 * x))) / sqrt(root)
     rise = 0.16597 + x * (0.079 - 0.007908 * x)
     return factor, factor * rise / trace, -factor * (0.25 + 0.5 * rise) / determinant
 

@@ -19,10 +19,10 @@ def pressure_centre(force, moment, through):
 
     through: a point in whose plane across the force the centre of pressure is looked for.
     """
-    square = dot(force, force)
-    foot = scale(1.0 / square, cross(force, moment))
-    point = along(foot, dot(sub(through, foot), force) / square, force)
-    return point, scale(dot(moment, force) / square, force)
+    unit = 1.0 / dot(force, force)
+    foot = scale(unit, cross(force, moment))
+    point = along(foot, dot(sub(through, foot), force) * unit, force)
+    return point, scale(dot(moment, force) * unit, force)
 
 
 @item
@@ -34,8 +34,8 @@ def _rocking_couple(dashpot, force, spread, normal, turning):
         arm = cross(s, normal)
         couple = along(couple, -dashpot * dot(arm, turning), arm)
         most += dot(arm, arm)
-    size, most = norm(couple), force * sqrt(most)
-    return scale(most / size, couple) if size > most else couple
+    square, most = dot(couple, couple), force * force * most
+    return scale(sqrt(most / square), couple) if square > most else couple
 
 
 @item
@@ -70,19 +70,19 @@ def press_consistent(k, shapes, vertex, face_normal, solids, bodies, pairs, cont
     velocity = relative_velocity(bodies.velocity, bodies.angular_velocity, a, b, point, arm)
     turning = sub(load(bodies.angular_velocity, b), load(bodies.angular_velocity, a))
     elastic_power = -dot(force, velocity) - dot(couple, turning)
-    approach = elastic_power / elastic
     share, rocking, rocking_power, dashpot = 1.0, none, 0.0, 0.0
     if contact.damping > 0.0:
         give = mobility(a, solids, bodies.orientation, point, direction) + mobility(b, solids, bodies.orientation, arm, direction)
         dashpot = contact.damping * sqrt(2.0 / (give * energy)) * elastic
-        share = max(1.0 + dashpot * approach / elastic, 0.0)
+        share = max(1.0 + dashpot * elastic_power / (elastic * elastic), 0.0)
         rocking = _rocking_couple(dashpot, share * elastic, spread, direction, turning)
         rocking_power = -dot(rocking, turning)
     damping_power = (share - 1.0) * elastic_power + rocking_power
     store(pairs.couple, k, along(rocking, share, couple))
     pairs.grip[k] = sqrt(dot(spread[0], spread[0]) + dot(spread[1], spread[1]))
-    pairs.tangent[k] = TANGENT * elastic * elastic / energy
-    shear_stiffness = 0.5 * contact.stiffness_ratio * elastic * elastic / energy
+    stiffness = elastic * elastic / energy
+    pairs.tangent[k] = TANGENT * stiffness
+    shear_stiffness = 0.5 * contact.stiffness_ratio * stiffness
     return (
         mode, size, -gap, point, direction, share * elastic, elastic_power, damping_power, shear_stiffness, dashpot, energy, 0.0,
     )  # fmt: skip

@@ -36,7 +36,9 @@ def press(upper, lower, tilt, height, turn=None):
     scratch = workspace_of(turn.apply(low), turn.apply(up[::-1]))
     found = face_on_cap(scratch, len(upper), tuple(turn.apply(normal)), len(lower), tuple(turn.apply(UP)), REACH, deepest, 1.0)
     back = turn.inv().apply
-    return found[0], back(found[1]), back(found[2]), found[3], found[4], back(np.array(found[5]))
+    rims, larger = np.array(found[5]), np.array(found[6])
+    assert (larger >= rims * (1.0 - 1e-12)).all()
+    return found[0], back(found[1]), back(found[2]), found[3], found[5], back(np.array(found[4]))
 
 
 def slow_patch(upper, lower, tilt, height):

@@ -227,3 +227,11 @@ def test_edge_on_face_of_a_pair(tilt):
     assert found.mode == Mode.EDGE_FACE
     assert found.size == pytest.approx(0.5, rel=1e-2)
     assert found.force == pytest.approx([0.0, 0.0, force], rel=0.05, abs=0.01 * force)
+
+
+@pytest.mark.parametrize(("overlap", "allowed"), [(1e-3, 0.05), (2e-3, 0.05), (3e-3, 0.05), (5e-3, 0.06)])
+def test_rims_round_the_ends_of_a_line_are_no_curvature_across_it(overlap, allowed):
+    # a floe's side on the pile, whose axis runs out over the side's upper and lower border
+    pair = PairInPlace(box(2.72, 2.72, 0.42), convex_hull([[0.0, 0.0, -5.0], [0.0, 0.0, 5.0]]), radii=(RADIUS, 2.0))
+    pair.place(1, [1.36 + RADIUS + 2.0 - overlap, 0.0, 0.0], Rotation.identity())
+    assert np.linalg.norm(pair.press().force) == pytest.approx(law_of_a_line(0.42, 2.0, overlap)[0], rel=allowed)
