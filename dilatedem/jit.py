@@ -45,7 +45,7 @@ if "NUMBA_CACHE_DIR" not in os.environ:
     os.environ["NUMBA_CACHE_DIR"] = str(_cache_folder())
 
 import numba  # noqa: E402  (the cache folder must be known first)
-from llvmlite.binding import Linkage  # noqa: E402
+from llvmlite.binding import Linkage, parse_assembly  # noqa: E402
 from numba.core.codegen import JITCodeLibrary  # noqa: E402
 from numba.core.compiler import Compiler  # noqa: E402
 from numba.extending import overload  # noqa: E402
@@ -92,9 +92,13 @@ class _InnerLibrary(JITCodeLibrary):
     codegen = property(lambda self: _NoEngine())
 
     def finalize(self):
+        # what a parallel loop needs to have started where its machine code comes from disk: the kernel keeps the list
+        for library in self._linking_libraries:
+            self._reload_init.update(library._reload_init)
         self._finalized = True
 
     def get_pointer_to_function(self, name):
+        self._ensure_finalized()
         return 0
 
     def _get_module_for_linking(self):
@@ -132,6 +136,12 @@ class _KernelLibrary(JITCodeLibrary):
             if not function.is_declaration and function.linkage == Linkage.linkonce_odr:
                 function.linkage = Linkage.internal
         super()._optimize_final_module()
+
+    def serialize_using_object_code(self):
+        # nothing is linked with a kernel: beside the machine code its names will do, and loading takes half the time
+        names = [function.name for function in self.get_defined_functions() if function.linkage == Linkage.external]
+        stubs = parse_assembly("\n".join(f'define void @"{name}"() {{ ret void }}' for name in names))
+        return self.name, "object", (self._get_compiled_object(), stubs.as_bitcode())
 
 
 class _InnerCompiler(Compiler):
@@ -189,18 +199,19 @@ def shared_loop(function):
     return numba.njit(**_INNER, parallel=True)(function)
 
 
-def by_team(alone, shared):
-    """A device function that runs `alone` or `shared` (both compiled, same arguments), by the type of its first argument.
+def by_type(usual, others):
+    """A device function that runs one of several (compiled, same arguments) by the type of its first argument.
 
-    The choice falls while a kernel is compiled: a run on one thread neither compiles nor starts anything parallel.
+    usual: the one that runs where that argument is no NamedTuple of `others`, a dictionary by class. The choice falls while a
+    kernel is compiled: what is not chosen is not compiled.
     """
 
     def stage(*arguments):
-        raise TypeError("a stage of a time step: only compiled code can call it")
+        raise TypeError("chosen by type: only compiled code can call it")
 
     @overload(stage, strict=False, jit_options=_INNER)
     def choose(*arguments):
-        chosen = shared if getattr(arguments[0], "instance_class", None) is Team else alone
+        chosen = others.get(getattr(arguments[0], "instance_class", None), usual)
 
         def run(*arguments):
             return chosen(*arguments)
@@ -224,7 +235,9 @@ def start_threads(count: int) -> str:
     return numba.threading_layer()
 
 
-def is_cached(dispatcher) -> bool:
-    """Whether machine code of a kernel lies on disk, for some kind of arguments."""
-    folder = Path(os.environ["NUMBA_CACHE_DIR"])
-    return any(folder.rglob(f"*{dispatcher.py_func.__name__}*.nbi"))
+def is_cached(dispatcher, *arguments) -> bool:
+    """Whether machine code of a kernel for arguments like these lies on disk."""
+    # there is no other way to ask without loading or compiling: the index of what Numba keeps on disk, by kinds of arguments
+    cache = dispatcher._cache
+    signature = tuple(numba.typeof(argument) for argument in arguments)
+    return cache._index_key(signature, dispatcher.targetctx.codegen()) in cache._cache_file._load_index()
