@@ -17,7 +17,7 @@ from dilatedem.geometry.shapes import BodyShape, pack_hulls, pack_shapes
 from dilatedem.numerics.frames import matrix_from_quaternion, quaternion_from_rotation_vector
 from dilatedem.state.bodies import Bodies, Solids, bodies_at_rest
 from dilatedem.state.model import Model
-from dilatedem.state.setting import ContactModel, ContactSetting, Surroundings
+from dilatedem.state.setting import ConsistentSetting, ContactModel, ContactSetting, Surroundings
 from dilatedem.state.workspace import MOST_CORNERS
 
 Structure = PileStructure | PlaneStructure
@@ -216,14 +216,19 @@ def build_model(case: Case, scene: Scene) -> Model:
         shapes=shapes,
         hulls=pack_hulls(scene.shapes, scene.order),
         solids=_solids(case, scene, [*piles, *planes]),
-        contact=ContactSetting(
-            int(ContactModel[case.contact.model.upper()]), case.contact.damping, case.contact.friction, case.contact.stiffness_ratio
-        ),
+        contact=_contact_setting(case),
         surroundings=Surroundings(
             case.gravity.acceleration, water.enabled, water.density, *current, water.drag_force_coefficient,
             water.drag_moment_coefficient, *np.where(periodic, case.domain.size, 0.0).tolist(),
         ),
     )  # fmt: skip
+
+
+def _contact_setting(case: Case) -> ContactSetting:
+    contact = case.contact
+    model = ContactModel[contact.model.upper()]
+    setting = ConsistentSetting if model == ContactModel.CONSISTENT else ContactSetting
+    return setting(int(model), contact.damping, contact.friction, contact.stiffness_ratio)
 
 
 def _require_one_image(case: Case, scene: Scene, reach: np.ndarray, periodic: tuple[bool, bool]) -> None:

@@ -6,6 +6,7 @@ user's NUMBA_CACHE_DIR says otherwise. Two decorators only: `kernel` for the com
 disk), `device` for the functions that kernels call.
 """
 
+import gc
 import hashlib
 import os
 import tempfile
@@ -45,7 +46,10 @@ if "NUMBA_CACHE_DIR" not in os.environ:
 
 import numba  # noqa: E402  (the cache folder must be known first)
 from llvmlite import ir  # noqa: E402
+from llvmlite.binding import Linkage, parse_assembly  # noqa: E402
 from numba.core import types  # noqa: E402
+from numba.core.codegen import JITCodeLibrary  # noqa: E402
+from numba.core.compiler import Compiler  # noqa: E402
 from numba.extending import intrinsic, overload  # noqa: E402
 
 # a program that imported Numba before has it configured already, with the cache beside the sources: there, code goes stale
@@ -54,6 +58,9 @@ numba.config.CACHE_DIR = os.environ["NUMBA_CACHE_DIR"]
 numba.config.THREADING_LAYER_PRIORITY = ["omp", "workqueue", "tbb"]
 
 prange = numba.prange
+
+#: objects that compiling makes between two searches for garbage; effect: time against memory
+GARBAGE = 50_000
 
 
 #: bytes
@@ -72,13 +79,111 @@ class Team(NamedTuple):
     threads: int
 
 
+# --- compiling: a kernel is optimised once, as a whole --------------------------------------------------------------------
+#
+# Left to itself Numba optimises every function together with all that it calls, and again within each of its callers: at six layers
+# of calls most of the time. So what kernels call is only written down; a kernel takes it all in and is optimised in one go.
+
+
+class _NoEngine:
+    """What an inner function has instead of machine code."""
+
+    def set_env(self, name, environment):
+        pass  # only code that goes back to Python would look at it
+
+
+class _InnerLibrary(JITCodeLibrary):
+    """Code of a function that kernels call, as it was written down: neither optimised nor turned into machine code."""
+
+    codegen = property(lambda self: _NoEngine())
+
+    def finalize(self):
+        # what a parallel loop needs to have started where its machine code comes from disk: the kernel keeps the list
+        for library in self._linking_libraries:
+            self._reload_init.update(library._reload_init)
+        self._finalized = True
+
+    def get_pointer_to_function(self, name):
+        self._ensure_finalized()
+        return 0
+
+    def _get_module_for_linking(self):
+        if self._shared_module is None:
+            self._shared_module = _shareable(self._final_module)
+            met, waiting = {self}, list(self._linking_libraries)
+            while waiting:
+                library = waiting.pop()
+                if library in met:
+                    continue
+                met.add(library)
+                if isinstance(library, _InnerLibrary):
+                    self._shared_module.link_in(_shareable(library._final_module))
+                    waiting += library._linking_libraries
+                else:
+                    self._shared_module.link_in(library._get_module_for_linking(), preserve=True)
+        return self._shared_module
+
+
+def _shareable(module):
+    """A copy whose functions may turn up in several others."""
+    module = module.clone()
+    for function in module.functions:
+        if not function.is_declaration and function.linkage == Linkage.external:
+            function.linkage = Linkage.linkonce_odr
+    return module
+
+
+class _KernelLibrary(JITCodeLibrary):
+    """A kernel with all that it calls."""
+
+    def _optimize_final_module(self):
+        # nobody else sees its functions: arguments that none of them uses may go, which makes a step a tenth faster and more
+        for function in self._final_module.functions:
+            if not function.is_declaration and function.linkage == Linkage.linkonce_odr:
+                function.linkage = Linkage.internal
+        super()._optimize_final_module()
+
+    def serialize_using_object_code(self):
+        # nothing is linked with a kernel: beside the machine code its names will do, and loading takes half the time
+        names = [function.name for function in self.get_defined_functions() if function.linkage == Linkage.external]
+        stubs = parse_assembly("\n".join(f'define void @"{name}"() {{ ret void }}' for name in names))
+        return self.name, "object", (self._get_compiled_object(), stubs.as_bitcode())
+
+
+class _InnerCompiler(Compiler):
+    """Compiles what kernels call."""
+
+    library_class = _InnerLibrary
+
+    def define_pipelines(self):
+        if self.state.library is None:
+            self.state.library = self.library_class(self.state.targetctx.codegen(), self.state.func_id.func_qualname)
+            self.state.library.enable_object_caching()
+        return super().define_pipelines()
+
+
+class _KernelCompiler(_InnerCompiler):
+    """Compiles kernels."""
+
+    library_class = _KernelLibrary
+
+    def compile_extra(self, function):
+        thresholds = gc.get_threshold()
+        # the compiler makes millions of objects that stay: to look through them again and again takes a quarter of the time
+        gc.set_threshold(GARBAGE, *thresholds[1:])
+        try:
+            return super().compile_extra(function)
+        finally:
+            gc.set_threshold(*thresholds)
+
+
 #: Python never calls what kernels call: without the wrappers for that, compiling takes a third less
-_INNER = {**_OPTIONS, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
+_INNER = {**_OPTIONS, "no_cpython_wrapper": True, "no_cfunc_wrapper": True, "pipeline_class": _InnerCompiler}
 
 
 def kernel(function):
     """Compile a loop that Python calls; its machine code is kept on disk."""
-    return numba.njit(cache=True, **_OPTIONS)(function)
+    return numba.njit(cache=True, pipeline_class=_KernelCompiler, **_OPTIONS)(function)
 
 
 def device(function):
@@ -100,18 +205,19 @@ def shared_loop(function):
     return numba.njit(**_INNER, parallel=True)(function)
 
 
-def by_team(alone, shared):
-    """A device function that runs `alone` or `shared` (both compiled, same arguments), by the type of its first argument.
+def by_type(usual, others):
+    """A device function that runs one of several (compiled, same arguments) by the type of its first argument.
 
-    The choice falls while a kernel is compiled: a run on one thread neither compiles nor starts anything parallel.
+    usual: the one that runs where that argument is no NamedTuple of `others`, a dictionary by class. The choice falls while a
+    kernel is compiled: what is not chosen is not compiled.
     """
 
     def stage(*arguments):
-        raise TypeError("a stage of a time step: only compiled code can call it")
+        raise TypeError("chosen by type: only compiled code can call it")
 
-    @overload(stage, strict=False)
+    @overload(stage, strict=False, jit_options=_INNER)
     def choose(*arguments):
-        chosen = shared if getattr(arguments[0], "instance_class", None) is Team else alone
+        chosen = others.get(getattr(arguments[0], "instance_class", None), usual)
 
         def run(*arguments):
             return chosen(*arguments)
@@ -135,10 +241,12 @@ def start_threads(count: int) -> str:
     return numba.threading_layer()
 
 
-def is_cached(dispatcher) -> bool:
-    """Whether machine code of a kernel lies on disk, for some kind of arguments."""
-    folder = Path(os.environ["NUMBA_CACHE_DIR"])
-    return any(folder.rglob(f"*{dispatcher.py_func.__name__}*.nbi"))
+def is_cached(dispatcher, *arguments) -> bool:
+    """Whether machine code of a kernel for arguments like these lies on disk."""
+    # there is no other way to ask without loading or compiling: the index of what Numba keeps on disk, by kinds of arguments
+    cache = dispatcher._cache
+    signature = tuple(numba.typeof(argument) for argument in arguments)
+    return cache._index_key(signature, dispatcher.targetctx.codegen()) in cache._cache_file._load_index()
 
 
 @intrinsic

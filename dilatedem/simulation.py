@@ -129,7 +129,10 @@ class Simulation:
 
     def energies(self) -> dict[str, float]:
         """The ledger of this instant, in J, as the columns of energy.csv (without time and residual)."""
-        kinetic, weight, buoyancy, elastic = instant_energies(self.model, self.state.bodies, self.state.pairs, self.workspace)
+        model = self.model
+        kinetic, weight, buoyancy, elastic = instant_energies(
+            model.floating, model.hulls, model.solids, model.surroundings, self.state.bodies, self.state.pairs, self.workspace
+        )
         return {
             "kinetic": kinetic,
             "gravity": weight,
@@ -145,16 +148,23 @@ class Simulation:
     def assembled_step_ratio(self) -> float:
         """dt over the critical step of the contacts that are open now (an upper bound)."""
         state, damping = self.state, self.model.contact.damping
-        frequency = assembled_frequency(self.model, state.bodies, state.pairs, np.zeros(len(state.bodies.path)))
+        frequency = assembled_frequency(self.model.solids, state.bodies, state.pairs, np.zeros(len(state.bodies.path)))
         return self.dt * frequency / (2.0 * (math.sqrt(1.0 + damping**2) - damping))
 
+    def is_compiled(self) -> bool:
+        """Whether machine code of `advance` for this simulation lies on disk."""
+        return is_cached(advance, *self._arguments(), self.dt, self.span, 1)
+
     def _call(self, kernel, *more) -> Status:
+        return Status(kernel(*self._arguments(), *more))
+
+    def _arguments(self) -> tuple:
         team = Alone() if self.threads == 1 else Team(self.threads)
         state = self.state
-        return Status(kernel(
+        return (
             team, self.model, state.bodies, state.pairs, self.spare, self.cells, self.workspace, self.tally, state.ledger,
-            state.loads, state.clock, *more,
-        ))  # fmt: skip
+            state.loads, state.clock,
+        )  # fmt: skip
 
     def _make_room(self) -> None:
         capacity = len(self.state.pairs.a)
@@ -190,9 +200,12 @@ def check(case: Case) -> dict:
     return facts
 
 
-def compile_kernels(threads: int = 1) -> None:
-    """Compile what a run needs, or load it from the cache."""
-    case = Case.model_validate({"field": {"source": "bodies"}, "body": [{"vertices": [[0.0, 0.0, 0.0]], "dilated_radius": 0.1}]})
+def compile_kernels(threads: int = 1, model: str = "liu2015") -> None:
+    """Compile what a run with a contact model needs, or load it from the cache."""
+    case = Case.model_validate({
+        "field": {"source": "bodies"}, "body": [{"vertices": [[0.0, 0.0, 0.0]], "dilated_radius": 0.1}],
+        "contact": {"model": model},
+    })  # fmt: skip
     simulation = Simulation.of_case(case, threads=threads)
     simulation.evaluate()
     simulation.advance(1)
@@ -219,7 +232,7 @@ def run(case: Case, out: Path, *, threads: int = 1, resume: bool = False, overwr
     steps = total_steps(case, simulation.dt)
     with Progress(case.time.duration, quiet) as progress:
         progress.message(_headline(simulation, steps, layer))
-        compile_s = _compile(threads, progress)
+        compile_s = _compile(simulation, progress)
         with (
             Interruption() as interruption,
             RunOutput(simulation, out, saved) if saved else RunOutput.fresh(simulation, out) as output,
@@ -232,13 +245,13 @@ def run(case: Case, out: Path, *, threads: int = 1, resume: bool = False, overwr
     return out
 
 
-def _compile(threads: int, progress: Progress) -> float:
+def _compile(simulation: Simulation, progress: Progress) -> float:
     """Have the kernels ready before any file is touched: Ctrl-C ends this at once, with nothing to save. Returns the time, s."""
     started = time.perf_counter()
-    if not is_cached(advance):
-        progress.message("compiling, once (about half a minute)")
+    if not simulation.is_compiled():
+        progress.message("compiling, once (about twenty seconds)")
     try:
-        compile_kernels(threads)
+        compile_kernels(simulation.threads, simulation.case.contact.model)
     except KeyboardInterrupt:
         raise Interrupted("interrupted while compiling; no file was touched") from None
     return time.perf_counter() - started

@@ -79,7 +79,7 @@ def sweep(
     out.mkdir(parents=True, exist_ok=True)
     _write_table(todo, out)
     if waiting:
-        _compile_once()
+        _compile_once({job.case.contact.model for job in waiting})
         _run_all(todo, waiting, workers, out)
     unfinished = [job for job in todo if job.status != "completed"]
     if unfinished:
@@ -147,14 +147,15 @@ def _core_count() -> int:
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
-def _compile_once() -> None:
-    """Fills Numba's cache, or every case would compile the same kernels at the same time.
+def _compile_once(models: set[str]) -> None:
+    """Fills Numba's cache for some contact models, or every case would compile the same kernels at the same time.
 
     Done by a process of its own, so that an interrupt ends it and its memory is given back. Its failure is
     left to the cases, which meet the same fault and report it.
     """
-    command = [sys.executable, "-c", "from dilatedem.simulation import compile_kernels; compile_kernels()"]
-    subprocess.run(command, stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL, check=False)
+    for model in sorted(models):
+        command = [sys.executable, "-c", f"from dilatedem.simulation import compile_kernels; compile_kernels(model={model!r})"]
+        subprocess.run(command, stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL, check=False)
 
 
 def _command(job: Job) -> list[str]:

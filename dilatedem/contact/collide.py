@@ -7,9 +7,9 @@ from dilatedem.contact.consistent.press import press_consistent
 from dilatedem.contact.friction import carried_over, length, rescaled, slide, viscous_share
 from dilatedem.contact.kinematics import relative_velocity
 from dilatedem.contact.liu2015 import press_liu2015
-from dilatedem.jit import device, item
+from dilatedem.jit import by_type, device, item
 from dilatedem.numerics.vector import accumulate, along, dot, load, norm, scale, store, sub
-from dilatedem.state.setting import ContactModel
+from dilatedem.state.setting import ConsistentSetting, ContactModel
 
 CONSISTENT = int(ContactModel.CONSISTENT)
 
@@ -60,6 +60,19 @@ def _end_contact(pairs, k, dt):
 
 
 @item
+def _press_liu2015(contact, k, dt, shapes, vertex, face_normal, solids, bodies, pairs, offset, normal, pa, pb, gap, scratch):
+    return press_liu2015(k, dt, shapes, vertex, face_normal, solids, bodies, pairs, contact, offset, normal, pa, pb, gap, scratch)
+
+
+@item
+def _press_consistent(contact, k, dt, shapes, vertex, face_normal, solids, bodies, pairs, offset, normal, pa, pb, gap, scratch):
+    return press_consistent(k, shapes, vertex, face_normal, solids, bodies, pairs, contact, offset, normal, pa, pb, gap, scratch)
+
+
+_press = by_type(_press_liu2015, {ConsistentSetting: _press_consistent})
+
+
+@item
 def collide(k, dt, shapes, vertex, face_normal, solids, bodies, pairs, contact, surroundings, scratch):
     """Evaluate pair k at this instant; writes its rows of `pairs` and nothing else.
 
@@ -80,14 +93,7 @@ def collide(k, dt, shapes, vertex, face_normal, solids, bodies, pairs, contact, 
         if pairs.overlap[k] > 0.0:
             _end_contact(pairs, k, dt)
         return
-    if contact.model == CONSISTENT:
-        pressed = press_consistent(
-            k, shapes, vertex, face_normal, solids, bodies, pairs, contact, offset, normal, pa, pb, gap, scratch
-        )
-    else:
-        pressed = press_liu2015(
-            k, dt, shapes, vertex, face_normal, solids, bodies, pairs, contact, offset, normal, pa, pb, gap, scratch
-        )
+    pressed = _press(contact, k, dt, shapes, vertex, face_normal, solids, bodies, pairs, offset, normal, pa, pb, gap, scratch)
     mode, size, overlap, point, direction, normal_force, elastic_power, damping_power, shear_stiffness, dashpot = pressed[:10]
     stored, gain = pressed[10], pressed[11]
     arm = sub(point, offset)
@@ -117,9 +123,7 @@ def collide(k, dt, shapes, vertex, face_normal, solids, bodies, pairs, contact, 
         sliding = along(sliding, -dot(sliding, direction), direction)
         turning = sub(load(bodies.angular_velocity, b), load(bodies.angular_velocity, a))
         turned_now = grip * dot(turning, direction)
-        share = viscous_share(
-            slip, wrung, sliding, turned_now, shear_stiffness, dashpot, contact.friction * normal_force
-        )
+        share = viscous_share(slip, wrung, sliding, turned_now, shear_stiffness, dashpot, contact.friction * normal_force)
         force = along(force, -share * dashpot, sliding)
         torsion += share * dashpot * turned_now
         damping_power += share * dashpot * length(sliding, turned_now) ** 2

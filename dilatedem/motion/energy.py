@@ -9,23 +9,22 @@ from dilatedem.water.floating import submerge_tilted
 
 
 @kernel
-def instant_energies(model, bodies, pairs, workspace):
+def instant_energies(floating, hulls, solids, surroundings, bodies, pairs, workspace):
     """Kinetic energy, energy of weight and of buoyancy, elastic energy of all contacts [J] (4 values).
 
     Buoyancy: the water a body has displaced was lifted from the centre of buoyancy to the surface, -rho g V z_B, whose gradient
     is the buoyancy force and moment of any convex body.
     """
     kinetic = weight = buoyancy = elastic = 0.0
-    surroundings, solids, wet = model.surroundings, model.solids, workspace.wet
-    q = bodies.orientation
-    for i in range(model.floating):
+    q, wet = bodies.orientation, workspace.wet
+    for i in range(floating):
         if solids.inverse_mass[i] == 0.0:
             continue
         kinetic += kinetic_energy(i, solids, bodies)
         z = bodies.position[i, 2]
         weight += solids.mass[i] * surroundings.gravity * z
         if surroundings.water:
-            submerge_tilted(i, model.hulls, bodies, workspace, 0)
+            submerge_tilted(i, hulls, bodies, workspace, 0)
             up = rotation_matrix(q[i, 0], q[i, 1], q[i, 2], q[i, 3])[2]
             volume, cx, cy, cz = wet[i, 0], wet[i, 1], wet[i, 2], wet[i, 3]
             height = z + up[0] * cx + up[1] * cy + up[2] * cz

@@ -7,7 +7,7 @@ on the number of threads. (Writes through a NamedTuple *inside* a prange would b
 from dilatedem.contact.collide import collide
 from dilatedem.contact.gather import book_contact, sum_contacts
 from dilatedem.contact.turning import turn_shape
-from dilatedem.jit import by_team, device, item, prange, prefetch, shared_loop
+from dilatedem.jit import Team, by_type, device, item, prange, prefetch, shared_loop
 from dilatedem.motion.integrate import complete_spin, drift, kick
 from dilatedem.motion.paces import LONGEST_MOVE
 from dilatedem.water.floating import submerge
@@ -76,7 +76,7 @@ def _drift_shared(team, chosen, count, dt, reach, solids, bodies, pairs, workspa
         _drift_block(block, blocks, chosen, count, dt, reach, solids, bodies, pairs, workspace)
 
 
-_drift_all = by_team(_drift_alone, _drift_shared)
+_drift_all = by_type(_drift_alone, {Team: _drift_shared})
 
 
 @device
@@ -198,7 +198,7 @@ def _collide_shared(team, count, dt, floating, shapes, solids, contact, surround
         _collide_block(block, blocks, count, dt, floating, shapes, solids, contact, surroundings, bodies, pairs, workspace, tally)
 
 
-_collide_all = by_team(_collide_alone, _collide_shared)
+_collide_all = by_type(_collide_alone, {Team: _collide_shared})
 
 
 @device
@@ -251,7 +251,7 @@ def _load_and_kick_shared(team, chosen, count, awake, dt, floating, hulls, solid
         )
 
 
-_load_and_kick_all = by_team(_load_and_kick_alone, _load_and_kick_shared)
+_load_and_kick_all = by_type(_load_and_kick_alone, {Team: _load_and_kick_shared})
 
 
 @device

@@ -118,7 +118,7 @@ def _line_stiffness(shapes, i: int, modulus: float, inverse_mass: float, speed: 
 
 
 @kernel
-def assembled_frequency(model, bodies, pairs, stiffness):
+def assembled_frequency(solids, bodies, pairs, stiffness):
     """Upper bound of the highest angular frequency [rad/s] of the normal springs that are open now (friction springs left out).
 
     stiffness (n,): workspace. A body's contacts add up to s = sum c k_tan/m', c = 2, or 1 where the other side is held; no mode is
@@ -129,9 +129,9 @@ def assembled_frequency(model, bodies, pairs, stiffness):
     for k in range(pairs.count[0]):
         if pairs.overlap[k] > 0.0:
             tangent, normal, a, b = pairs.tangent[k], load(pairs.normal, k), pairs.a[k], pairs.b[k]
-            both = 2.0 if model.solids.inverse_mass[a] > 0.0 and model.solids.inverse_mass[b] > 0.0 else 1.0
-            stiffness[a] += both * tangent * mobility(a, model.solids, bodies.orientation, load(pairs.point, k), normal)
-            stiffness[b] += both * tangent * mobility(b, model.solids, bodies.orientation, load(pairs.arm, k), normal)
+            both = 2.0 if solids.inverse_mass[a] > 0.0 and solids.inverse_mass[b] > 0.0 else 1.0
+            stiffness[a] += both * tangent * mobility(a, solids, bodies.orientation, load(pairs.point, k), normal)
+            stiffness[b] += both * tangent * mobility(b, solids, bodies.orientation, load(pairs.arm, k), normal)
     most = 0.0
     for i in range(len(stiffness)):
         most = max(most, stiffness[i])

@@ -12,10 +12,18 @@ class ContactModel(IntEnum):
 
 
 class ContactSetting(NamedTuple):
+    """Parameters of contact for `liu2015`; for `consistent` there is a class of its own, so that only one model is compiled."""
+
     model: int  # ContactModel
     damping: float  # zeta_n of Liu 2015, Eq. (4)
     friction: float  # mu of Eq. (6)
     stiffness_ratio: float  # r_ns: tangential over normal stiffness
+
+
+class ConsistentSetting(ContactSetting):
+    """The same for `consistent`."""
+
+    __slots__ = ()
 
 
 class Surroundings(NamedTuple):

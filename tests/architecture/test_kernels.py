@@ -13,7 +13,7 @@ from numba.core.errors import NumbaError
 from numba.core.registry import CPUDispatcher
 
 import dilatedem
-from dilatedem.jit import kernel
+from dilatedem.jit import Alone, Team, by_type, device, is_cached, kernel
 
 KERNEL_PACKAGES = ("numerics", "contact", "water", "motion")
 
@@ -59,6 +59,39 @@ def test_compiled_code_lies_in_the_folder_of_its_sources_whoever_imports_numba_f
     environment |= {"XDG_CACHE_HOME": str(tmp_path), "PYTHONPATH": str(Path(dilatedem.__path__[0]).parent)}
     told = subprocess.run([sys.executable, "-c", program], env=environment, capture_output=True, text=True, check=True)
     assert told.stdout.startswith(f"{tmp_path}/dilatedem/")
+
+
+@kernel
+def _threads(team):
+    return team.threads
+
+
+def test_machine_code_counts_as_there_only_for_the_same_kinds_of_arguments(tmp_path, monkeypatch):
+    """The message that something is being compiled comes where it is, not only where nothing was ever compiled."""
+    monkeypatch.setattr(_threads._cache._cache_file, "_index_path", str(tmp_path / "index.nbi"))
+    monkeypatch.setattr(_threads._cache._cache_file, "_cache_path", str(tmp_path))
+    _threads(Alone())
+    assert is_cached(_threads, Alone()) and not is_cached(_threads, Team(2))
+
+
+def test_what_runs_is_chosen_by_the_type_of_the_first_argument():
+    @device
+    def one(team):
+        return 1
+
+    @device
+    def several(team):
+        return 2
+
+    chosen = by_type(one, {Team: several})
+
+    @kernel
+    def runs(team):
+        return chosen(team)
+
+    assert (runs(Alone()), runs(Team(1))) == (1, 2)
+    with pytest.raises(TypeError, match="only compiled code"):
+        chosen(Alone())
 
 
 def test_kernels_say_in_their_first_lines_what_they_do():

@@ -3,6 +3,9 @@
 A write through a NamedTuple that is lost in a parallel loop raises no error; this is where it would show.
 """
 
+import os
+import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -62,3 +65,15 @@ def test_the_shared_loops_are_those_that_were_compared():
     assert any(Team.__name__ in str(signature[0]) for signature in advance.signatures)
     for loop in (_drift_shared, _collide_shared, _load_and_kick_shared):
         assert loop.targetoptions["parallel"]
+
+
+def test_shared_loops_run_from_machine_code_on_disk(start):
+    """The threads must be there before, or the first step of the second run is a crash."""
+    advanced(2, start)
+    program = (
+        "from tests.architecture.test_threads import advance, advanced; s = advanced(2, advanced(1).state.groups()); "
+        "assert s.is_compiled() and advance.stats.cache_hits and not advance.stats.cache_misses"
+    )
+    root = Path(__file__).parents[2]
+    told = subprocess.run([sys.executable, "-c", program], cwd=root, env=os.environ, capture_output=True, text=True, check=False)
+    assert told.returncode == 0, told.stderr[-2000:]

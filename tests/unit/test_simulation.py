@@ -138,7 +138,7 @@ def test_the_case_file_of_a_run_names_version_and_seed(crowded):
 
 
 def test_an_interrupt_while_compiling_leaves_no_folder(tmp_path, monkeypatch):
-    def interrupted(threads):
+    def interrupted(*asked):
         raise KeyboardInterrupt
 
     monkeypatch.setattr(simulation, "compile_kernels", interrupted)
