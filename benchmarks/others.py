@@ -13,8 +13,8 @@ ROOT = Path(__file__).parents[1]
 PAPER_CASE = ROOT / "cases" / "pile.toml"
 #: floes of the large field, for memory and generation
 LARGE = 100_000
-#: simulated time over which the writing of files is timed, s: a checkpoint at 10 s and one at the end, snapshots every second
-FILES_DURATION = 20.0
+#: simulated time over which the writing of files is timed, s: all of the case, as most of its contacts come late
+FILES_DURATION = 100.0
 
 #: dilatedem's command line up to the end of the first step of the run itself (kernels are tried out on one body before); then it
 #: tells the time and ends

@@ -1,7 +1,7 @@
 """When an output is due: steps counted exactly, so that a resumed run writes at the same steps."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 NEVER = 2**62  # a step number no run reaches: safe in min() beside real ones
 ROUND_OFF = 1e-9  # relative; an event this close after a step belongs to that step, not to the next one
@@ -22,6 +22,8 @@ class Schedule:
     interval_s: float
     dt: float
     span: int = 1
+    #: a step and the first due step after it, as last found: what is asked next lies between them nearly always
+    _known: list[int] = field(default_factory=lambda: [0, -1], init=False, repr=False, compare=False)
 
     def __post_init__(self):
         if not (self.interval_s >= 0.0 and math.isfinite(self.interval_s)):
@@ -50,7 +52,11 @@ class Schedule:
 
     def next_due(self, step: int) -> int:
         """The first due step after `step` (NEVER if there is none); next_due(-1) is 0."""
-        return self.due_step(self.events_until(step))
+        since, due = self._known
+        if not since <= step < due:
+            due = self.due_step(self.events_until(step))
+            self._known[:] = step, due
+        return due
 
     def is_due(self, step: int) -> bool:
         """Whether an event is due at `step`."""
