@@ -135,10 +135,6 @@ def _fetch_body(body, shapes, bodies, workspace):
     for line in range((last - first) * 3 // 8 + 1):
         prefetch(shapes.vertex, first, line)
         prefetch(workspace.vertex, first, line)
-    for line in range((last - first) // 8 + 1):
-        prefetch(shapes.neighbour_start, first, line)
-    for line in range((last - first) * 3 // 8 + 1):  # every corner of a floe has three neighbours
-        prefetch(shapes.neighbour, shapes.neighbour_start[first], line)
     first, last = shapes.face_start[body], shapes.face_start[body + 1]
     for line in range((last - first) * 3 // 8 + 1):
         prefetch(shapes.face_normal, first, line)
