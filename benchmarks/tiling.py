@@ -28,7 +28,7 @@ def _repeat_numbers(numbers: np.ndarray, first: int, copies: int, floes: int, to
     turn = np.arange(copies)[:, None]
     of_floes = numbers[:first] + turn * floes
     of_structures = numbers[first:] + (copies - 1) * floes + turn * (total - floes)
-    return np.concatenate([of_floes.ravel(), of_structures.ravel()])
+    return np.concatenate([of_floes.ravel(), of_structures.ravel()]).astype(numbers.dtype)
 
 
 def _repeated(packed, floating: int, copies: int):

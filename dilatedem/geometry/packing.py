@@ -37,7 +37,7 @@ def pack_polyhedra(polyhedra: Sequence[Polyhedron], order: np.ndarray | None = N
         entries[number] = sum(len(face) for face in stack.faces)
     vertex_start, face_start, entry_start = offsets(vertices), offsets(faces), offsets(entries)
     vertex, face_normal = np.empty((vertex_start[-1], 3)), np.empty((face_start[-1], 3))
-    corners, loop = np.empty(face_start[-1], np.int64), np.empty(entry_start[-1], np.int64)
+    corners, loop = np.empty(face_start[-1], np.int64), np.empty(entry_start[-1], np.int32)
     for stack, number in parts:
         place(vertex, vertex_start[number], stack.vertices)
         if stack.faces:

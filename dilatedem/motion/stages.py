@@ -141,7 +141,7 @@ def _fetch_body(body, shapes, bodies, workspace):
         prefetch(workspace.face_normal, first, line)
     if last > first:
         start, end = shapes.loop_start[first], shapes.loop_start[last]
-        for line in range((end - start) // 8 + 1):
+        for line in range((end - start) // 16 + 1):
             prefetch(shapes.loop, start, line)
 
 
