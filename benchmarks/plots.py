@@ -5,14 +5,14 @@ from pathlib import Path
 from benchmarks.results import grouped
 from benchmarks.scenes import MODELS, SCENES
 from benchmarks.timed_step import STAGES
-from dilatedem.post.canvas import BLACK, BLUE, GREEN, ORANGE, PNG_DPI, PURPLE, SKY, VERMILION, new_figure, styled
+from dilatedem.post.canvas import BLACK, BLUE, GREEN, PNG_DPI, PURPLE, SKY, VERMILION, new_figure, styled
 
 COST, STAGE = "cost_by_size.png", "cost_by_stage.png"
 _COLOURS = {"liu2015": BLUE, "consistent": VERMILION}
 _LINES = {1: ("-", "o"), 2: ("--", "s")}
 #: the stages that can be seen, with those that cannot under one colour
 _STAGE_COLOURS = {
-    "collide": VERMILION, "turn": ORANGE, "record": PURPLE, "drift": BLUE, "float": SKY, "idle": GREEN,
+    "collide": VERMILION, "record": PURPLE, "drift": BLUE, "float": SKY, "idle": GREEN,
     "foresee": "#5b6770", "wake": BLACK,
 }  # fmt: skip
 _REST = "#b8bec4"
@@ -73,6 +73,7 @@ def cost_by_stage(rows: list[dict], path: Path) -> None:
         axes.set_xlabel("µs per floe and step")
         axes.grid(True, axis="x")
         axes.tick_params(axis="y", length=0)
+        axes.locator_params(axis="x", nbins=4)
         if axes is not figure.axes[0]:
             axes.set_yticklabels([])
     handles, labels = figure.axes[0].get_legend_handles_labels()

@@ -123,7 +123,7 @@ def _by_stage(rows: list[dict]) -> str:
     words = (
         "One thread; the step as measured by the program's own loop, then its stages, µs a step. *search*: has a body moved so far "
         "that the list of pairs must be made anew, and that; *foresee*: which bodies nothing can touch for some steps; *drift*: "
-        "half a kick and the move of the others; *wake*: which pairs may touch; *turn*: their shapes; *collide*: distance, patch, "
+        "half a kick and the move of the others; *wake*: which pairs may touch; *collide*: their shapes, distance, patch, "
         "forces; *float*: sums of contacts, buoyancy, drag, the other half of the kick; *record*: ledger, loads on structures, is "
         "an overlap too deep; *idle*: the long step of bodies that nothing touched."
     )
