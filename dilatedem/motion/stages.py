@@ -15,13 +15,13 @@ from dilatedem.water.loads import body_loads
 
 #: cache lines of a pair's row
 PAIR_LINES = 6
-#: pairs that are turned, fetched and evaluated together
+#: pairs that are fetched, turned and evaluated together
 AT_ONCE = 16
 
 
 @device
 def part(count, block, blocks):
-    """First and last-but-one entry of one of `blocks` equal parts of a list."""
+    """Where one of `blocks` equal parts of a list begins, and where the next does."""
     return count * block // blocks, count * (block + 1) // blocks
 
 
@@ -119,7 +119,7 @@ def _fetch(block, first, last, shapes, bodies, pairs, workspace):
             prefetch(pairs.rounds, k, line)
         for body in (pairs.a[k], pairs.b[k]):
             if abs(turned[block, body]) != instant:
-                turned[block, body] = -instant
+                turned[block, body] = -instant  # asked for, not yet turned
                 _fetch_body(body, shapes, bodies, workspace)
 
 

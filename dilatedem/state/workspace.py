@@ -29,7 +29,7 @@ class Workspace(NamedTuple):
     room: np.ndarray  # (n,) m, how far a body is taken to get at most
     horizon: np.ndarray  # (n,) m, path at which a body has got farther than it was taken to
     instant: np.ndarray  # (1,) counts the instants at which pairs were evaluated
-    turned: np.ndarray  # (threads, n) instant to which a thread has turned a body's shape
+    turned: np.ndarray  # (threads, n) instant to which a thread has turned a body's shape; negative: asked for it
     fault: np.ndarray  # (threads,) body that moves too fast, -1 = none
     leap: np.ndarray  # (threads,) m, how far it moved
     surprise: np.ndarray  # (threads,) whether some body has passed its horizon

@@ -3,7 +3,9 @@
 import numpy as np
 import pytest
 
-from dilatedem.jit import kernel, prefetch
+from dilatedem.jit import CACHE_LINE, kernel, prefetch
+from dilatedem.motion.stages import PAIR_LINES
+from dilatedem.state.pairs import empty_pairs
 
 
 @kernel
@@ -27,3 +29,8 @@ def test_a_prefetch_changes_nothing(columns):
 def test_the_instruction_is_in_the_machine_code():
     fetch_and_sum(np.ones((4, 3)), 4)
     assert any("prefetch" in code for code in fetch_and_sum.inspect_asm().values())
+
+
+def test_a_pairs_row_is_as_many_lines_as_are_fetched():
+    pairs = empty_pairs(3)
+    assert pairs.rounds.strides[0] == PAIR_LINES * CACHE_LINE and pairs.rounds.ctypes.data % CACHE_LINE == 0
