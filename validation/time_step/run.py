@@ -24,8 +24,9 @@ RUNS = Path("runs/time_step")
 CASE = Path("cases/pile.toml")
 START, END = "<!-- results: written by validation/time_step/run.py -->", "<!-- end of the results -->"
 MODELS = ("liu2015", "consistent")
-FRACTIONS = (0.1, 0.2, 0.3, 0.4)
-SEEDS = range(1, 6)
+FRACTIONS = (0.2, 0.3, 0.4)
+#: ice fields
+SEEDS = {"liu2015": 10, "consistent": 5}
 #: the reference's steps in one step of the run
 PARTS = 4
 
@@ -36,7 +37,6 @@ class Found:
 
     peak: float  # N, highest horizontal load
     impulse: float  # N s, along x, over the whole run
-    wall: float  # s, compiling left out
     window: dict[str, float]  # of `error_check.replay`, at dt
     reference: dict[str, float]  # the same at dt / PARTS
 
@@ -56,18 +56,17 @@ def made(model: str, fraction: float, seed: int) -> Found:
         steps = end - watch.worst.step
         windows = [replay(simulation, steps, parts, lambda: False) for parts in (1, PARTS)]
         kept.write_text(json.dumps(windows))
-    summary = json.loads((out / "summary.json").read_text())
     window, reference = json.loads(kept.read_text())
     loads = np.genfromtxt(out / "forces.csv", delimiter=",", names=True)
     impulse = float(loads["fx_N"].sum() * case.output.force_interval)
-    return Found(float(loads["fh_max_N"].max()), impulse, summary["wall_s"] - summary["compile_s"], window, reference)
+    return Found(float(loads["fh_max_N"].max()), impulse, window, reference)
 
 
-def change(found: list[Found], name: str) -> tuple[float, float]:
-    """Change of the mean over all seeds, and of the worst seed, from dt to dt / PARTS, as shares."""
+def change(found: list[Found], name: str) -> tuple[float, float, float]:
+    """By what share dt is above dt / PARTS: in the mean over all seeds, in the median, and for the worst seed."""
     at_dt, reference = (np.array([getattr(one, which)[name] for one in found]) for which in ("window", "reference"))
     each = at_dt / reference - 1.0
-    return float(at_dt.mean() / reference.mean() - 1.0), float(each[np.abs(each).argmax()])
+    return float(at_dt.mean() / reference.mean() - 1.0), float(np.median(each)), float(each[np.abs(each).argmax()])
 
 
 def spread(values: list[float]) -> str:
@@ -77,17 +76,15 @@ def spread(values: list[float]) -> str:
 
 def table(results: dict[tuple[str, float], list[Found]]) -> str:
     lines = [
-        "| model | step / critical | wall, s | peak: mean, worst seed | impulse: mean, worst seed | peak in 100 s, kN "
+        "| model | step / critical | fields | peak: mean, median, worst | impulse: mean, median, worst | peak in 100 s, kN "
         "| impulse in 100 s, kN s |",
         "| --- | ---: | ---: | ---: | ---: | ---: | ---: |",
     ]
     for (model, fraction), found in results.items():
-        peak, impulse = change(found, "fh_max_N"), change(found, "impulse_h_Ns")
-        wall = np.median([one.wall for one in found])
+        window = [", ".join(f"{share:+.2%}" for share in change(found, name)) for name in ("fh_max_N", "impulse_h_Ns")]
         whole = [spread([getattr(one, name) for one in found]) for name in ("peak", "impulse")]
         lines.append(
-            f"| `{model}` | {fraction:g} | {wall:.1f} | {peak[0]:+.2%}, {peak[1]:+.2%} | {impulse[0]:+.2%}, {impulse[1]:+.2%} "
-            f"| {whole[0]} | {whole[1]} |"
+            f"| `{model}` | {fraction:g} | {len(found)} | {window[0]} | {window[1]} | {whole[0]} | {whole[1]} |"
         )
     return "\n".join(lines)
 
@@ -97,7 +94,8 @@ def main() -> None:
     parser.add_argument("--models", default=",".join(MODELS), help="joined by commas (%(default)s)")
     parser.add_argument("--jobs", type=int, default=2, help="runs at a time (%(default)s)")
     asked = parser.parse_args()
-    keys = list(product(asked.models.split(","), FRACTIONS, SEEDS))
+    models = asked.models.split(",")
+    keys = [key for model in models for key in product([model], FRACTIONS, range(1, SEEDS[model] + 1))]
     with ProcessPoolExecutor(asked.jobs) as pool:
         found = list(pool.map(made, *zip(*keys, strict=True)))
     results: dict[tuple[str, float], list[Found]] = {}
