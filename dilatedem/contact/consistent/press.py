@@ -74,7 +74,8 @@ def press_consistent(k, shapes, vertex, face_normal, solids, bodies, pairs, cont
     share, rocking, rocking_power, dashpot = 1.0, none, 0.0, 0.0
     if contact.damping > 0.0:
         give = mobility(a, solids, bodies.orientation, point, direction) + mobility(b, solids, bodies.orientation, arm, direction)
-        dashpot = contact.damping * sqrt(2.0 / (give * energy)) * elastic
+        give *= energy
+        dashpot = contact.damping * sqrt(2.0 * give) * (1.0 / give) * elastic  # root and division beside each other
         share = max(1.0 + dashpot * elastic_power * unit, 0.0)
         rocking = _rocking_couple(dashpot, share * elastic, spread, direction, turning)
         rocking_power = -dot(rocking, turning)
