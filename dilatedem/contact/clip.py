@@ -10,9 +10,10 @@ from dilatedem.jit import device
 def clip_polygon(source, count, target, a, b, c, d):
     """Keep the part of a polygon where a u + b v + c h <= d; returns its corner count in `target`."""
     kept = 0
+    sj = a * source[0, 0] + b * source[0, 1] + c * source[0, 2] - d
     for i in range(count):
         j = i + 1 if i + 1 < count else 0
-        si = a * source[i, 0] + b * source[i, 1] + c * source[i, 2] - d
+        si = sj
         sj = a * source[j, 0] + b * source[j, 1] + c * source[j, 2] - d
         if si <= 0.0:
             for m in range(3):

@@ -126,14 +126,15 @@ def collide(k, dt, shapes, vertex, face_normal, solids, bodies, pairs, contact, 
         share = viscous_share(slip, wrung, sliding, turned_now, shear_stiffness, dashpot, contact.friction * normal_force)
         force = along(force, -share * dashpot, sliding)
         torsion += share * dashpot * turned_now
-        damping_power += share * dashpot * length(sliding, turned_now) ** 2
+        damping_power += share * dashpot * (dot(sliding, sliding) + turned_now * turned_now)
 
     # what the step cost, as trapezoids in time: the kinetic energy of the Verlet steps changes by these, up to dt^2/(4 m) |dF|^2
     if contact.model == CONSISTENT:
         # what the spring took up on the way, less what it has now
         taken = old_stiffness * (dot(before, slid) + before_turned * turned)
         taken += shear_stiffness * (dot(slip, slid) + wrung * turned)
-        kept = shear_stiffness * length(slip, wrung) ** 2 - old_stiffness * length(before, before_turned) ** 2
+        kept = shear_stiffness * (dot(slip, slip) + wrung * wrung)
+        kept -= old_stiffness * (dot(before, before) + before_turned * before_turned)
         rubbed = 0.5 * (dt * taken - kept)
     else:
         held = shear_stiffness * norm(slip)

@@ -68,4 +68,6 @@ def viscous_share(slip, turned, sliding, turning, stiffness, dashpot, limit):
         return 1.0
     fg = stiffness * dashpot * (dot(slip, sliding) + turned * turning)
     room = limit * limit - stiffness * stiffness * (dot(slip, slip) + turned * turned)
+    if gg + 2.0 * fg <= room:  # all of it
+        return 1.0
     return min(1.0, (sqrt(fg * fg + gg * max(room, 0.0)) - fg) / gg)

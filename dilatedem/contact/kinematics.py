@@ -1,8 +1,7 @@
 """How two bodies move at a point where they touch, and how easily they give way there."""
 
 from dilatedem.jit import item
-from dilatedem.numerics.rotation import rotation_matrix, to_body
-from dilatedem.numerics.vector import add, cross, load, sub
+from dilatedem.numerics.vector import add, along, cross, load, sub
 
 
 @item
@@ -19,9 +18,12 @@ def mobility(i, solids, orientation, lever, normal):
     total = solids.inverse_mass[i]
     if total == 0.0:
         return 0.0
-    q = orientation
-    arm = to_body(rotation_matrix(q[i, 0], q[i, 1], q[i, 2], q[i, 3]), cross(lever, normal))
-    for r in range(3):
-        for c in range(3):
-            total += arm[r] * solids.inverse_inertia[i, r, c] * arm[c]
-    return total
+    q, give = orientation, solids.inverse_inertia
+    # turned by the quaternion itself: for one vector its matrix takes longer; the inertia is symmetric
+    axis, arm = (q[i, 1], q[i, 2], q[i, 3]), cross(lever, normal)
+    twice = cross(arm, axis)
+    twice = add(twice, twice)
+    x, y, z = add(along(arm, q[i, 0], twice), cross(twice, axis))
+    xx, yy, zz = give[i, 0, 0] * x * x, give[i, 1, 1] * y * y, give[i, 2, 2] * z * z
+    xy, xz, yz = give[i, 0, 1] * x * y, give[i, 0, 2] * x * z, give[i, 1, 2] * y * z
+    return total + ((xx + yy) + zz) + 2.0 * ((xy + xz) + yz)

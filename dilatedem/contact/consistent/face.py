@@ -93,7 +93,8 @@ def _bevel(eu, ev, fu, fv):
     """Whether the corner between two sides (eu, ev) and (fu, fv) of face b is sharp, and the outward unit vector across it."""
     c = eu * fu + ev * fv
     ee, ff = eu * eu + ev * ev, fu * fu + fv * fv
-    if c >= 0.0 or c * c <= SHARPEST * SHARPEST * ee * ff:
+    # one comparison: at a right angle round-off would choose between two
+    if c * abs(c) >= -SHARPEST * SHARPEST * ee * ff:
         return False, 0.0, 0.0
     ee, ff = 1.0 / sqrt(ee), 1.0 / sqrt(ff)
     a, b = eu * ee - fu * ff, ev * ee - fv * ff
@@ -119,9 +120,10 @@ def _patch(scratch, count_a, count_b, origin, t1, t2, normal, reach):
         j = k + 1 if k + 1 < count_b else 0
         p, q, u, v = scratch[BORDER, k, 0], scratch[BORDER, k, 1], scratch[BORDER, j, 0], scratch[BORDER, j, 1]
         eu, ev = u - p, v - q
-        # how far out the patch reaches, times the length of the side: no root where it does not
+        # how far out the patch reaches, times the length of the side: no root where it does not, and one comparison: where borders
+        # coincide round-off would choose between two
         out, square = _outmost(scratch, now, count, ev, -eu) - (ev * p - eu * q), eu * eu + ev * ev
-        if out > 0.0 and out * out > MARGIN * MARGIN * square:
+        if out * abs(out) > MARGIN * MARGIN * square:
             unit = 1.0 / sqrt(square)
             a, b = ev * unit, -eu * unit
             count, now, fences = _clip(scratch, now, count, fences, a, b, a * p + b * q + MARGIN)
@@ -142,18 +144,20 @@ def _patch(scratch, count_a, count_b, origin, t1, t2, normal, reach):
 
 
 @device
-def _punch(first, second, juu, juv, jvv, modulus):
-    """Energy of a patch from the integrals of its overlap and of its square and the overlap's second moments about its centre;
-    derivatives by them: first, second, juu, juv, jvv.
+def _punch(per_first, second, per_second, juu, juv, jvv, determinant, modulus):
+    """Energy of a patch from the integrals of its overlap (its inverse) and of its square (and its inverse), and the overlap's
+    second moments about its centre with their determinant; derivatives by them: first, second, juu, juv, jvv.
     """
-    trace, inverse = juu + jvv, 1.0 / sqrt(juu * jvv - juv * juv)
-    shape = 0.5 * trace * inverse
-    energy = modulus * (BETA / sqrt(pi)) * sqrt(sqrt(0.5 * (shape + 1.0))) * second * sqrt(second) / first
-    rise = 0.25 * energy * inverse / (shape + 1.0)
-    bend = rise * shape * inverse
-    return energy, (
-        -energy / first, 1.5 * energy / second, 0.5 * (rise - bend * jvv), bend * juv, 0.5 * (rise - bend * juu)
-    )  # fmt: skip
+    # each root and division waits for those before it: as few as there may be stand one behind the other
+    root, inverse = sqrt(determinant), 1.0 / determinant
+    trace = juu + jvv
+    whole = trace + 2.0 * root
+    inverse *= root
+    energy = modulus * (BETA / sqrt(pi)) * second * per_first * sqrt(second * sqrt(0.25 * whole * inverse))
+    rise = 0.5 * energy * (1.0 / whole)
+    bend = 0.5 * rise * trace * inverse * inverse
+    rise *= 0.5
+    return energy, (-energy * per_first, 1.5 * energy * per_second, rise - 0.5 * bend * jvv, bend * juv, rise - 0.5 * bend * juu)
 
 
 @device
@@ -260,7 +264,8 @@ def press_face(scratch, count_a, normal_a, count_b, normal_b, reach, modulus):
     first = d0 * m[0] + gu * m[1] + gv * m[2]
     if not first > 0.0:
         return nothing
-    du, dv = (d0 * m[1] + gu * m[3] + gv * m[4]) / first, (d0 * m[2] + gu * m[4] + gv * m[5]) / first
+    unit = 1.0 / first  # one division for many: each takes as long as a dozen products, and all else waits for it
+    du, dv = (d0 * m[1] + gu * m[3] + gv * m[4]) * unit, (d0 * m[2] + gu * m[4] + gv * m[5]) * unit
     m = _shifted(m, du, dv)
     d0 += gu * du + gv * dv
     u0, v0 = polygon[0, 0] + du, polygon[0, 1] + dv
@@ -268,9 +273,11 @@ def press_face(scratch, count_a, normal_a, count_b, normal_b, reach, modulus):
     juv = d0 * m[4] + gu * m[7] + gv * m[8]
     jvv = d0 * m[5] + gu * m[8] + gv * m[9]
     second = d0 * d0 * m[0] + 2.0 * d0 * (gu * m[1] + gv * m[2]) + gu * gu * m[3] + 2.0 * gu * gv * m[4] + gv * gv * m[5]
-    if not (second > 0.0 and juu * jvv - juv * juv > 0.0):
+    determinant = juu * jvv - juv * juv
+    if not (second > 0.0 and determinant > 0.0):
         return nothing
-    energy, pressure = _punch(first, second, juu, juv, jvv, modulus)
+    per_second = 1.0 / second
+    energy, pressure = _punch(unit, second, per_second, juu, juv, jvv, determinant, modulus)
     total, total_u, total_v = _resultant(pressure, m, d0, gu, gv)
     # on a: along b's normal, at (u, v) of b's plane
     wrench = 0.0, 0.0, total_v + v0 * total, -total_u - u0 * total, 0.0
@@ -280,11 +287,9 @@ def press_face(scratch, count_a, normal_a, count_b, normal_b, reach, modulus):
     force = along(along(scale(total, normal_b), fu, t1), fv, t2)
     moment = add(cross(origin, force), along(along(scale(mn, normal_b), mu, t1), mv, t2))
     # the second moments as squares of two vectors (Cholesky)
-    unit = 1.0 / first
-    one = sqrt(juu * unit)
-    two = juv * unit / one
-    spread = along(scale(one, t1), two, t2), scale(sqrt(max(jvv * unit - two * two, 0.0)), t2)
-    return energy, force, moment, first * first / second, spread, (count, now, sqrt(gu * gu + gv * gv))
+    one, share = sqrt(juu * unit), 1.0 / juu
+    spread = along(scale(one, t1), juv * share * one, t2), scale(sqrt(determinant * unit * share), t2)
+    return energy, force, moment, first * first * per_second, spread, (count, now, sqrt(gu * gu + gv * gv))
 
 
 @item

@@ -5,7 +5,7 @@ from math import sqrt
 from dilatedem.contact.consistent.join import pose_energy
 from dilatedem.contact.kinematics import mobility, relative_velocity
 from dilatedem.jit import device, item
-from dilatedem.numerics.vector import along, cross, dot, load, norm, scale, store, sub
+from dilatedem.numerics.vector import along, cross, dot, load, scale, store, sub
 
 #: share of the sum of the radii past which the distance of the cores means nothing to the energy: they are about to touch
 DEEPEST_SHARE = 0.95
@@ -14,12 +14,11 @@ TANGENT = 0.6
 
 
 @device
-def pressure_centre(force, moment, through):
+def pressure_centre(force, unit, moment, through):
     """The wrench of a force and its moment about the origin as a force at a point and a couple along it.
 
-    through: a point in whose plane across the force the centre of pressure is looked for.
+    unit: 1/force^2; through: a point in whose plane across the force the centre of pressure is looked for.
     """
-    unit = 1.0 / dot(force, force)
     foot = scale(unit, cross(force, moment))
     point = along(foot, dot(sub(through, foot), force) * unit, force)
     return point, scale(dot(moment, force) * unit, force)
@@ -52,20 +51,22 @@ def press_consistent(k, shapes, vertex, face_normal, solids, bodies, pairs, cont
     reach = shapes.radius[a] + shapes.radius[b]
     middle = along(pa, shapes.radius[a] + 0.5 * gap, normal)
     none = (0.0, 0.0, 0.0)
-    energy, elastic, mode, size, force, moment, spread = 0.0, 0.0, 0, 1.0, none, none, (none, none)
+    energy, square, elastic, mode, size, force, moment, spread = 0.0, 0.0, 0.0, 0, 1.0, none, none, (none, none)
     if -gap < DEEPEST_SHARE * reach:
         modulus = 1.0 / (solids.compliance[a] + solids.compliance[b])
         energy, force, moment, mode, size, spread = pose_energy(
             vertex, face_normal, shapes, a, b, pairs.corners[k], pairs.corner_a[k], pairs.corner_b[k], offset, normal, pb, -gap,
             modulus, scratch,
         )  # fmt: skip
-        elastic = norm(force)
+        square = dot(force, force)
+        elastic = sqrt(square)
     if not (energy > 0.0 and elastic > 0.0):
         store(pairs.couple, k, none)
         pairs.grip[k] = 0.0
         return mode, size, -gap, middle, normal, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
-    direction = scale(1.0 / elastic, force)
-    point, couple = pressure_centre(force, moment, middle)
+    unit = 1.0 / square
+    direction = scale(unit * elastic, force)  # the division need not wait for the root
+    point, couple = pressure_centre(force, unit, moment, middle)
     arm = sub(point, offset)
     velocity = relative_velocity(bodies.velocity, bodies.angular_velocity, a, b, point, arm)
     turning = sub(load(bodies.angular_velocity, b), load(bodies.angular_velocity, a))
@@ -73,14 +74,15 @@ def press_consistent(k, shapes, vertex, face_normal, solids, bodies, pairs, cont
     share, rocking, rocking_power, dashpot = 1.0, none, 0.0, 0.0
     if contact.damping > 0.0:
         give = mobility(a, solids, bodies.orientation, point, direction) + mobility(b, solids, bodies.orientation, arm, direction)
-        dashpot = contact.damping * sqrt(2.0 / (give * energy)) * elastic
-        share = max(1.0 + dashpot * elastic_power / (elastic * elastic), 0.0)
+        give *= energy
+        dashpot = contact.damping * sqrt(2.0 * give) * (1.0 / give) * elastic  # root and division beside each other
+        share = max(1.0 + dashpot * elastic_power * unit, 0.0)
         rocking = _rocking_couple(dashpot, share * elastic, spread, direction, turning)
         rocking_power = -dot(rocking, turning)
     damping_power = (share - 1.0) * elastic_power + rocking_power
     store(pairs.couple, k, along(rocking, share, couple))
     pairs.grip[k] = sqrt(dot(spread[0], spread[0]) + dot(spread[1], spread[1]))
-    stiffness = elastic * elastic / energy
+    stiffness = square / energy
     pairs.tangent[k] = TANGENT * stiffness
     shear_stiffness = 0.5 * contact.stiffness_ratio * stiffness
     return (
