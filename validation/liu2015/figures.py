@@ -65,7 +65,8 @@ def force_by_speed(ensemble: Ensemble) -> Figure | None:
         if axes.get_yscale() == "linear":
             axes.set_xlim(left=0.0)
     speeds = sorted({speed for model in models for speed in ensemble.speeds(model, LARGE)})
-    panels[0, 1].set_xticks(speeds, [f"{speed:g}" for speed in speeds])
+    # 0.9 and 1 would run into each other
+    panels[0, 1].set_xticks(speeds, ["" if speed == 0.9 else f"{speed:g}" for speed in speeds])
     panels[0, 1].minorticks_off()
     panels[0, 1].yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
     panels[0, 1].yaxis.set_major_formatter("{x:g}")
