@@ -186,12 +186,12 @@ def test_an_interrupt_lets_the_running_cases_save_their_state(tmp_path, signal_n
         text=True,
     )
     sleeping = [out / f"contact.friction=0.6__seed={seed}" for seed in (1, 2)]
-    for _ in range(200):
+    for _ in range(1200):
         if all((folder / "started").exists() for folder in sleeping):
             break
         time.sleep(0.05)
     process.send_signal(signal_number)
-    _, said = process.communicate(timeout=20)
+    _, said = process.communicate(timeout=60)
     assert process.returncode == 130, said
     assert "interrupted with 2 of 4 cases completed; --resume goes on" in said
     assert [row["status"] for row in rows(out)] == ["completed"] * 2 + ["interrupted"] * 2

@@ -49,7 +49,7 @@ def test_the_papers_cases():
     fields = {"title", "field"}
     assert large.model_dump(exclude=fields) == small.model_dump(exclude=fields)
     assert [structure.name for structure in large.structure] == ["pile"]
-    assert large.time == Case().time.model_copy(update={"error_check": True})
+    assert large.time == Case().time.model_copy(update={"error_check": True, "step_fraction": 0.4})
     fields |= {"structure", "domain", "time"}
     assert large.model_dump(exclude=fields) == Case().model_dump(exclude=fields)
     assert large.field.concentration == Case().field.concentration
