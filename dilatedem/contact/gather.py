@@ -15,7 +15,7 @@ from dilatedem.state.record import ANGLE_BINS, HEIGHT_BINS
 #: overlap, in units of the smaller dilated radius of the two, past which the run stops
 DEEPEST = 4.0
 #: pairs between the one whose results are asked for and the one that is summed
-AHEAD = 8
+AHEAD = 24
 
 
 @device
@@ -33,13 +33,14 @@ def sum_contacts(chosen, first, last, awake, bodies, pairs, workspace):
             bodies.contact_torque[i, m] = 0.0
     for w in range(awake):
         k, later = workspace.awake[w], workspace.awake[min(w + AHEAD, awake - 1)]
-        prefetch(pairs.overlap, later, 0)
-        prefetch(pairs.force, later, 0)
-        prefetch(pairs.force, later, 1)
+        if pairs.b[later] >= low and pairs.a[later] <= high:
+            prefetch(pairs.overlap, later, 0)
+            prefetch(pairs.overlap, later, 1)
         a, b = pairs.a[k], pairs.b[k]
         if a > high:
             break  # pairs are sorted by a, and b > a
-        if pairs.overlap[k] <= 0.0 or b < low:
+        # whose pair it is comes first: rows that another thread has just written are far away
+        if b < low or pairs.overlap[k] <= 0.0:
             continue
         force, couple = load(pairs.force, k), load(pairs.couple, k)
         if a >= low:

@@ -15,8 +15,12 @@ from dilatedem.water.loads import body_loads
 
 #: cache lines of a pair's row
 PAIR_LINES = 6
-#: pairs that are fetched, turned and evaluated together
-AT_ONCE = 16
+#: pairs between the one that is evaluated and the one whose data are asked for
+AHEAD = 28
+#: the same, of what says where a body's corners and faces lie
+FAR_AHEAD = 2 * AHEAD
+#: cache lines that the vertices, the face normals and the faces' corners of a floe fill; of larger ones the rest is waited for
+VERTEX_LINES, NORMAL_LINES, LOOP_LINES = 5, 4, 3
 
 
 @device
@@ -105,22 +109,51 @@ def surprised(workspace):
 # --- meet --------------------------------------------------------------------------------------------------------------------
 
 
-@device
-def _fetch(block, first, last, shapes, bodies, pairs, workspace):
-    """Ask for what the awake pairs first..last-1 and their bodies will need, while others are evaluated.
+@item
+def _fetch_places(block, w, last, shapes, solids, bodies, pairs, workspace):
+    """Ask for what `_fetch` must know of a pair's bodies, and for the numbers that a body has one of.
+
+    Of body b alone: pairs are sorted by body a, whose numbers come in order, which the processor foresees by itself.
+    """
+    if w >= last:
+        return
+    b, turned = pairs.b[workspace.awake[w]], workspace.turned[block]
+    prefetch(turned, b, 0)
+    prefetch(shapes.vertex_start, b, 0)
+    prefetch(shapes.face_start, b, 0)
+    prefetch(shapes.radius, b, 0)
+    prefetch(shapes.kind, b, 0)
+    prefetch(solids.inverse_mass, b, 0)
+    prefetch(solids.compliance, b, 0)
+    prefetch(bodies.path, b, 0)
+
+
+@item
+def _fetch_loops(w, last, shapes, pairs, workspace):
+    """Ask for where the loops of a pair's faces begin."""
+    if w >= last:
+        return
+    k = workspace.awake[w]
+    prefetch(shapes.loop_start, shapes.face_start[pairs.a[k]], 0)
+    prefetch(shapes.loop_start, shapes.face_start[pairs.b[k]], 0)
+
+
+@item
+def _fetch(block, w, last, shapes, bodies, pairs, workspace):
+    """Ask for what awake pair w and its bodies will need, while others are evaluated.
 
     With some thousand bodies a step's data no longer fit into the processor's cache, and a pair would wait for each part of them in
-    turn.
+    turn. Nothing here may wait either: where a body's corners lie was asked for before, and how many lines they fill is not asked.
     """
-    instant, turned = workspace.instant[0], workspace.turned
-    for w in range(first, last):
-        k = workspace.awake[w]
-        for line in range(PAIR_LINES):
-            prefetch(pairs.rounds, k, line)
-        for body in (pairs.a[k], pairs.b[k]):
-            if abs(turned[block, body]) != instant:
-                turned[block, body] = -instant  # asked for, not yet turned
-                _fetch_body(body, shapes, bodies, workspace)
+    if w >= last:
+        return
+    k, instant, turned = workspace.awake[w], workspace.instant[0], workspace.turned
+    for line in range(PAIR_LINES):
+        prefetch(pairs.rounds, k, line)
+    for body in (pairs.a[k], pairs.b[k]):
+        if abs(turned[block, body]) != instant:
+            turned[block, body] = -instant  # asked for, not yet turned
+            _fetch_body(body, shapes, bodies, workspace)
 
 
 @item
@@ -131,55 +164,50 @@ def _fetch_body(body, shapes, bodies, workspace):
     prefetch(bodies.angular_velocity, body, 0)
     prefetch(bodies.middle_velocity, body, 0)
     prefetch(bodies.middle_angular_velocity, body, 0)
-    first, last = shapes.vertex_start[body], shapes.vertex_start[body + 1]
-    for line in range((last - first) * 3 // 8 + 1):
-        prefetch(shapes.vertex, first, line)
-        prefetch(workspace.vertex, first, line)
-    first, last = shapes.face_start[body], shapes.face_start[body + 1]
-    for line in range((last - first) * 3 // 8 + 1):
-        prefetch(shapes.face_normal, first, line)
-        prefetch(workspace.face_normal, first, line)
-    if last > first:
-        start, end = shapes.loop_start[first], shapes.loop_start[last]
-        for line in range((end - start) // 16 + 1):
-            prefetch(shapes.loop, start, line)
+    vertex, face = shapes.vertex_start[body], shapes.face_start[body]
+    for line in range(VERTEX_LINES):
+        prefetch(shapes.vertex, vertex, line)
+        prefetch(workspace.vertex, vertex, line)
+    for line in range(NORMAL_LINES):
+        prefetch(shapes.face_normal, face, line)
+        prefetch(workspace.face_normal, face, line)
+    for line in range(LOOP_LINES):
+        prefetch(shapes.loop, shapes.loop_start[face], line)
 
 
-@device
-def _turn_shapes(block, first, last, shapes, orientation, pairs, workspace):
-    """Have the shapes of the awake pairs first..last-1 turned to this instant by this thread.
+@item
+def _turn_shapes(block, k, shapes, orientation, pairs, workspace):
+    """Have the shapes of pair k turned to this instant by this thread.
 
     Just before they are looked at, while they are in the processor's cache. A body that two threads look at is turned by both, and
     both write the same.
     """
     instant, turned = workspace.instant[0], workspace.turned
-    for w in range(first, last):
-        k = workspace.awake[w]
-        for body in (pairs.a[k], pairs.b[k]):
-            if turned[block, body] != instant:
-                turned[block, body] = instant
-                turn_shape(body, shapes, orientation, workspace.vertex, workspace.face_normal)
+    for body in (pairs.a[k], pairs.b[k]):
+        if turned[block, body] != instant:
+            turned[block, body] = instant
+            turn_shape(body, shapes, orientation, workspace.vertex, workspace.face_normal)
 
 
 @device
 def _collide_block(block, blocks, count, dt, floating, shapes, solids, contact, surroundings, bodies, pairs, workspace, tally):
     """Evaluate and book the awake pairs of some parts of the tally, in a clipping workspace of this block's own."""
     first_part, last_part = part(len(tally.deep), block, blocks)
+    last = part(count, last_part - 1, len(tally.deep))[1]
     for p in range(first_part, last_part):
         tally.deep[p] = -1
-        first, last = part(count, p, len(tally.deep))
-        _fetch(block, first, min(first + AT_ONCE, last), shapes, bodies, pairs, workspace)
-        for some in range(first, last, AT_ONCE):
-            end = min(some + AT_ONCE, last)
-            _fetch(block, end, min(end + AT_ONCE, last), shapes, bodies, pairs, workspace)
-            _turn_shapes(block, some, end, shapes, bodies.orientation, pairs, workspace)
-            for w in range(some, end):
-                k = workspace.awake[w]
-                collide(
-                    k, dt, shapes, workspace.vertex, workspace.face_normal, solids, bodies, pairs, contact, surroundings,
-                    workspace.clip[block],
-                )  # fmt: skip
-                book_contact(k, p, dt, floating, shapes, contact, pairs, tally)
+        start, end = part(count, p, len(tally.deep))
+        for w in range(start, end):
+            _fetch_places(block, w + FAR_AHEAD, last, shapes, solids, bodies, pairs, workspace)
+            _fetch_loops(w + (AHEAD + FAR_AHEAD) // 2, last, shapes, pairs, workspace)
+            _fetch(block, w + AHEAD, last, shapes, bodies, pairs, workspace)
+            k = workspace.awake[w]
+            _turn_shapes(block, k, shapes, bodies.orientation, pairs, workspace)
+            collide(
+                k, dt, shapes, workspace.vertex, workspace.face_normal, solids, bodies, pairs, contact, surroundings,
+                workspace.clip[block],
+            )  # fmt: skip
+            book_contact(k, p, dt, floating, shapes, contact, pairs, tally)
 
 
 @device

@@ -25,8 +25,7 @@ class Pairs(NamedTuple):
     corner_a: np.ndarray  # (m, 4) vertices of a's core
     corner_b: np.ndarray  # (m, 4) vertices of b's core
     normal: np.ndarray  # (m, 3) unit normal of the last evaluation
-    # memory of an open contact; overlap > 0 says that there is one
-    overlap: np.ndarray  # (m,) m, at the centroid of the patch
+    # memory of an open contact
     mode: np.ndarray  # (m,) contact mode
     stiffness: np.ndarray  # (m,) K of F = K overlap^exponent, N/m^exponent (liu2015)
     exponent: np.ndarray  # (m,) kappa (liu2015)
@@ -36,14 +35,16 @@ class Pairs(NamedTuple):
     slip: np.ndarray  # (m, 3) m, elongation of the tangential spring
     wrung: np.ndarray  # (m,) m, the same of turning about the normal, at the arm `grip` (consistent)
     grip: np.ndarray  # (m,) m, root of the patch's mean square distance from its centre (consistent)
-    damping_power: np.ndarray  # (m,) W
-    elastic_power: np.ndarray  # (m,) W that the elastic force takes up
-    # result of the last evaluation
+    # what the sums per body need, in two cache lines
+    overlap: np.ndarray  # (m,) m, at the centroid of the patch; > 0 says that there is a contact
     force: np.ndarray  # (m, 3) N, on b
     point: np.ndarray  # (m, 3) m, from the centroid of a
+    normal_force: np.ndarray  # (m,) N
     arm: np.ndarray  # (m, 3) m, from the centroid of b to the same point
     couple: np.ndarray  # (m, 3) N m, on b, along the normal force (consistent: what is left of its moment at `point`)
-    normal_force: np.ndarray  # (m,) N
+    # memory again, and results of the last evaluation
+    damping_power: np.ndarray  # (m,) W
+    elastic_power: np.ndarray  # (m,) W that the elastic force takes up
     size: np.ndarray  # (m,) length or area of the patch, m or m2; 1 for a contact at a point
     loss_damping: np.ndarray  # (m,) J lost in the last step
     loss_friction: np.ndarray  # (m,) J lost in the last step
