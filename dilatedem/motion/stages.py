@@ -16,7 +16,7 @@ from dilatedem.water.loads import body_loads
 #: cache lines of a pair's row
 PAIR_LINES = 6
 #: pairs between the one that is evaluated and the one whose data are asked for
-AHEAD = 28
+AHEAD = 64
 #: the same, of what says where a body's corners and faces lie
 FAR_AHEAD = 2 * AHEAD
 #: cache lines that the vertices, the face normals and the faces' corners of a floe fill; of larger ones the rest is waited for
