@@ -31,7 +31,7 @@ from dilatedem.run_output import RunOutput, Totals
 from dilatedem.state.bodies import Bodies
 from dilatedem.state.clock import Clock, Status, clock_at_start
 from dilatedem.state.model import Model
-from dilatedem.state.pairs import Pairs, empty_pairs, grown
+from dilatedem.state.pairs import Pairs, empty_pairs, grown, in_use
 from dilatedem.state.record import Ledger, Loads, Tally, empty_ledger, empty_loads, empty_tally
 from dilatedem.state.workspace import Cells, Workspace, make_cells, make_workspace
 from dilatedem.steps import free_span, time_step, total_steps
@@ -55,8 +55,8 @@ class State:
     watch: Watch | None = None  # of the highest load, where `time.error_check` asks for it
 
     def groups(self) -> dict:
-        own = {name: getattr(self, name) for name in ("bodies", "pairs", "ledger", "loads", "clock")}
-        return own | (self.watch.groups() if self.watch else {})
+        own = {name: getattr(self, name) for name in ("bodies", "ledger", "loads", "clock")}
+        return own | {"pairs": in_use(self.pairs)} | (self.watch.groups() if self.watch else {})
 
 
 @dataclass
@@ -301,10 +301,10 @@ def _load_checkpoint(out: Path, case: Case, simulation: Simulation) -> dict:
     if meta["dt"] != simulation.dt:
         steps = f"{meta['dt']:g} s, this program takes {simulation.dt:g} s"
         raise CaseError(f"{out / folder.CHECKPOINT}: has steps of {steps}; run anew with --overwrite")
-    state = simulation.state
+    state, room = simulation.state, len(simulation.state.pairs.a)
     for name, current in state.groups().items():
         setattr(state, name, checkpoint.restore(type(current), groups[name], where=str(out / folder.CHECKPOINT)))
-    state.pairs = grown(state.pairs, len(state.pairs.a))
+    state.pairs = grown(state.pairs, max(room, len(state.pairs.a)))
     state.totals = Totals(**meta["totals"])
     if state.watch:
         state.watch.restore(groups, meta["watch"], where=str(out / folder.CHECKPOINT))
