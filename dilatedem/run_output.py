@@ -13,7 +13,7 @@ from dilatedem.composition import ordered_structures
 from dilatedem.errors import Interrupted
 from dilatedem.geometry.polyhedron import Polyhedron
 from dilatedem.output import checkpoint, folder
-from dilatedem.output.archive import ContactStatistics, FloeTable, LoadMap, write_run_h5
+from dilatedem.output.archive import ContactStatistics, FloeTable, LoadMap, RunArchive
 from dilatedem.output.atomic import write_text
 from dilatedem.output.schedule import Schedule
 from dilatedem.output.summary import versions, write_summary
@@ -68,6 +68,7 @@ class RunOutput:
         self._simulation, self._out = simulation, out
         self._structures = ordered_structures(simulation.scene)
         self._writer = SnapshotWriter([shape.outer for shape in simulation.scene.shapes], simulation.scene.order)
+        self._archive = self._new_archive()
         self._began = time.perf_counter()
         self._checked: dict = {}  # what the check of the time step found
         output, pace = simulation.case.output, (simulation.dt, simulation.span)
@@ -93,6 +94,7 @@ class RunOutput:
     def __exit__(self, *exception) -> None:
         for table in self._tables.values():
             table.close()
+        self._archive.close()
 
     def next_due(self, step: int) -> int:
         """The next step at which something is written."""
@@ -246,9 +248,18 @@ class RunOutput:
         totals.snapshots.append([simulation.time_s, folder.snapshot_name(number)])
         write_pvd(self._out / folder.ICE_COLLECTION, totals.snapshots)
 
-    def _write_archive(self) -> None:
-        simulation = self._simulation
-        loads, scene = simulation.state.loads, simulation.scene
+    def _new_archive(self) -> RunArchive:
+        model, scene = self._simulation.model, self._simulation.scene
+        count = model.floating
+        return RunArchive(*self._contact_record(), FloeTable(
+            body=np.arange(count), x0=scene.position[:, 0], y0=scene.position[:, 1], plan_area=scene.plan_area,
+            mass=model.solids.mass[:count], volume=scene.volume(),
+            vertices=np.diff(model.shapes.vertex_start)[:count], outlines=scene.outlines,
+        ))  # fmt: skip
+
+    def _contact_record(self) -> tuple[list[LoadMap], dict[str, ContactStatistics]]:
+        """Load maps and contact statistics of this moment."""
+        simulation, loads = self._simulation, self._simulation.state.loads
         maps = []
         for s, structure in enumerate(self._structures):
             half, low, high = loads.map_span[s]
@@ -264,15 +275,11 @@ class RunOutput:
             partners: ContactStatistics(loads.mode_steps[p], loads.mode_impulse[p], loads.mode_force[p], loads.mode_overlap[p])
             for p, partners in enumerate(("ice_ice", "ice_structure"))
         }
-        count = simulation.model.floating
-        write_run_h5(
-            self._out / folder.RUN_ARCHIVE, maps, statistics,
-            FloeTable(
-                body=np.arange(count), x0=scene.position[:, 0], y0=scene.position[:, 1], plan_area=scene.plan_area,
-                mass=simulation.model.solids.mass[:count], volume=scene.volume(),
-                vertices=np.diff(simulation.model.shapes.vertex_start)[:count], outlines=scene.outlines,
-            ),
-        )  # fmt: skip
+        return maps, statistics
+
+    def _write_archive(self) -> None:
+        self._archive.update(*self._contact_record())
+        self._archive.write(self._out / folder.RUN_ARCHIVE)
 
     def _write_summary(self, status: str, message: str) -> None:
         simulation, totals = self._simulation, self.totals
