@@ -137,8 +137,8 @@ def files() -> list[dict]:
         found.append((spent / whole, spent, whole))
     share, spent, whole = min(found)
     note = (
-        f"{spent:.3g} of {whole:.2f} s for {FILES_DURATION:g} s of cases/pile.toml: all but the stepping - tables, energies, snapshots, "
-        "checkpoints, copies for the check of the step"
+        f"{spent:.3g} of {whole:.2f} s for {FILES_DURATION:g} s of cases/pile.toml: all but the stepping, so tables, energies, "
+        "snapshots, checkpoints, copies for the check of the step"
     )
     return [_figure("files_percent", 100.0 * share, "%", note)]
 

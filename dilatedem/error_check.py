@@ -85,9 +85,10 @@ class Watch:
     def look(self, state) -> None:
         """At every end of a window of forces.csv, before it is closed, at every window of this watch, and at the run's end."""
         step, loads = int(state.clock.step[0]), state.loads
-        if loads.steps[0] > 0 and loads.window_extreme[:, 4].max(initial=0.0) > self.peak:
-            self.structure = int(loads.window_extreme[:, 4].argmax())
-            self.peak, self.until = float(loads.window_extreme[self.structure, 4]), step
+        highest = loads.window_extreme[:, 4].tolist() if loads.steps[0] > 0 else []
+        if max(highest, default=0.0) > self.peak:
+            self.peak, self.until = max(highest), step
+            self.structure = highest.index(self.peak)
             early = self.seen < self.latest.step + LEAD / self.dt
             self.worst = self.before if early and self.before else self.latest
         self.seen = step

@@ -105,7 +105,7 @@ def in_use(pairs: Pairs) -> Pairs:
 
 
 class PackedPairs(NamedTuple):
-    """A copy of the rows in use as they lie in memory: whole rows are copied in a tenth of the time that it takes field by field."""
+    """A copy of the rows in use as they lie in memory: field by field, copying takes ten times as long."""
 
     count: np.ndarray
     frame: np.ndarray
