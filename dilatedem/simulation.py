@@ -260,14 +260,15 @@ def _compile(simulation: Simulation, progress: Progress) -> float:
 def _loop(simulation: Simulation, output: RunOutput, steps: int, progress: Progress, interruption: Interruption) -> None:
     """Advance from one due output to the next until the end, an interruption or a fault."""
     clock, longest = simulation.state.clock, -(-LONGEST_CHUNK // simulation.span) * simulation.span
-    progress.update(simulation.time_s, int(clock.step[0]), lambda: simulation.contacts)
-    while clock.step[0] < steps:
-        now = int(clock.step[0])
+    now = int(clock.step[0])
+    progress.update(simulation.time_s, now, lambda: simulation.contacts)
+    while now < steps:
         status = simulation.advance(min(output.next_due, steps, now + longest) - now)
         _stop_on_fault(simulation, output, status)
-        output.observe(last=clock.step[0] == steps)
-        progress.update(simulation.time_s, int(clock.step[0]), lambda: simulation.contacts)
-        if interruption.asked and clock.step[0] < steps:
+        now = int(clock.step[0])
+        output.observe(last=now == steps)
+        progress.update(simulation.time_s, now, lambda: simulation.contacts)
+        if interruption.asked and now < steps:
             output.interrupt()
             raise Interrupted(f"interrupted at t = {simulation.time_s:.4f} s; the state is saved, --resume goes on from it")
     found = output.complete(lambda: interruption.asked)

@@ -83,6 +83,7 @@ class Table:
         self._pending: list[bytes] = []
         self._pending_bytes = 0
         self._offset = 0
+        self._durable = 0  # bytes that are known to be on the disk
 
     @property
     def offset(self) -> int:
@@ -115,8 +116,9 @@ class Table:
             _write_whole(self._file, b"".join(self._pending))
             self._pending.clear()
             self._pending_bytes = 0
-        if durable:
+        if durable and self._offset > self._durable:
             os.fsync(self._file.fileno())
+            self._durable = self._offset
 
     def close(self) -> None:
         """Flush and close; closing twice does no harm."""

@@ -51,7 +51,7 @@ class Windows:
         structures = len(self._names)
         table.append_columns([
             [time_s for time_s in times for _ in range(structures)], self._names * count,
-            *np.moveaxis(numbers, 2, 0).reshape(-1, count * structures).tolist(),
+            *np.moveaxis(numbers, 2, 0).reshape(numbers.shape[2], -1).tolist(),
         ])  # fmt: skip
         for s, name in enumerate(self._names):
             peak = peaks.setdefault(name, {
