@@ -134,7 +134,7 @@ def test_a_file_of_another_format_is_refused_by_its_number(tmp_path):
 
 
 def test_meta_may_be_long(tmp_path):
-    snapshots = [[0.1 * n, f"snapshots/ice_{n:06d}.vtu"] for n in range(5000)]  # more than an attribute of HDF5 can hold
+    snapshots = [[0.1 * n, f"snapshots/ice_{n:06d}.vtu"] for n in range(5000)]
     checkpoint.save(tmp_path / "restart.h5", {}, {"snapshots": snapshots})
     assert checkpoint.load(tmp_path / "restart.h5") == ({}, {"snapshots": snapshots})
 
