@@ -7,6 +7,7 @@ fields that was 3 % of a run.
 """
 
 import json
+import math
 from collections.abc import Iterable
 from pathlib import Path
 from typing import NamedTuple, TypeVar
@@ -19,7 +20,7 @@ from dilatedem.output.atomic import replacing
 
 FORMAT = 2  # raised when the layout of the file changes
 ALIGNMENT = 8  # bytes; every array begins at a multiple
-PART_BYTES = 1 << 24  # so much is put together in memory before it is written
+PART_BYTES = 1 << 20  # so much is put together in memory before it is written
 
 State = TypeVar("State", bound=tuple)
 
@@ -71,11 +72,11 @@ def load(path) -> tuple[dict[str, dict[str, object]], dict]:
             found = int(file.attrs["format"])
             if found != FORMAT:
                 raise CaseError(f"{path}: checkpoint format {found}, but this version reads {FORMAT}")
-            contents, state = json.loads(file["contents"][()].tobytes()), file["state"][()]
-        groups = {
-            name: {field: _loaded(entry, state) for field, entry in entries.items()}
-            for name, entries in contents["fields"].items()
-        }
+            contents = json.loads(file["contents"][()].tobytes())
+            groups = {
+                name: {field: _loaded(entry, file["state"]) for field, entry in entries.items()}
+                for name, entries in contents["fields"].items()
+            }
         return groups, contents["meta"]
     except (OSError, KeyError, TypeError, ValueError) as fault:
         raise CaseError(f"{path}: is not a readable checkpoint ({fault})") from fault
@@ -114,10 +115,10 @@ def _parts(arrays: Iterable[np.ndarray]) -> Iterable[bytes]:
     yield b"".join(part)
 
 
-def _loaded(entry, state: np.ndarray):
+def _loaded(entry, state: h5py.Dataset):
     """A field from its entry in `contents`: itself, or where in `state` its array begins, of what type and shape it is."""
     if not isinstance(entry, list):
         return entry
-    start, kind, shape = entry
-    array = np.ndarray(shape, kind, state.data, start)
-    return array.copy()[()]  # as [()] has it, an array of no dimension is a number
+    start, kind, shape = entry[0], np.dtype(entry[1]), entry[2]
+    array = state[start : start + kind.itemsize * math.prod(shape)].view(kind).reshape(shape)
+    return array[()]  # an array of no dimension is a number
