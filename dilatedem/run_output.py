@@ -73,8 +73,8 @@ class RunOutput:
         self._simulation, self._out = simulation, out
         self._structures = ordered_structures(simulation.scene)
         self._writer = SnapshotWriter([shape.outer for shape in simulation.scene.shapes], simulation.scene.order)
-        self._archive = self._new_archive()
         self._began = time.perf_counter()
+        self._archive = self._new_archive()
         self._checked: dict = {}  # what the check of the time step found
         output, pace = simulation.case.output, (simulation.dt, simulation.span)
         self._forces = Schedule(output.force_interval, *pace)

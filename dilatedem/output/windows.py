@@ -12,8 +12,8 @@ ROOM = 1000
 class Windows:
     """The windows of one run since they were last worked up.
 
-    A window costs 2 us to keep and 5 us to work up among many; on its own it would take three times as long, as NumPy takes the
-    same time for a number as for a hundred.
+    A window of one structure costs 1.5 us to keep and 3 us to work up among many; on its own it would take 11 us, as NumPy takes
+    the same time for a number as for a hundred.
     """
 
     def __init__(self, structures: list[str], dt: float):
