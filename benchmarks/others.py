@@ -33,7 +33,7 @@ simulation.Simulation.advance = first
 main()
 """
 
-#: the paper's case for a while, with the time inside every call that writes
+#: the paper's case for a while: from the opening of its folder to the end, all that is not `advance` (its replays included) counts
 _FILES = """
 import sys, time
 from dilatedem import simulation
@@ -41,22 +41,22 @@ from dilatedem.case.load import load
 from dilatedem.run_output import RunOutput
 from pathlib import Path
 spent = [0.0]
-def clocked(method):
-    def call(*arguments, **options):
-        began = time.perf_counter()
-        try:
-            return method(*arguments, **options)
-        finally:
-            spent[0] += time.perf_counter() - began
-    return call
+advance, fresh = simulation.Simulation.advance, RunOutput.fresh
+def clocked(self, steps, *, dt=None):
+    spent[0] += time.perf_counter()
+    status = advance(self, steps, dt=dt)
+    spent[0] -= time.perf_counter()
+    return status
+def opened(run, out):
+    spent[0] = -time.perf_counter()
+    return fresh(run, out)
 simulation.compile_kernels()
-loop = [0.0]
-case = load(sys.argv[1], ["time.duration=" + sys.argv[2], "time.error_check=false"])
-RunOutput.observe, RunOutput.complete = clocked(RunOutput.observe), clocked(RunOutput.complete)
+simulation.Simulation.advance, RunOutput.fresh = clocked, opened
+case = load(sys.argv[1], ["time.duration=" + sys.argv[2]])
 began = time.perf_counter()
 simulation.run(case, Path(sys.argv[3]), quiet=True)
-whole = time.perf_counter() - began
-print("files", spent[0], whole)
+ended = time.perf_counter()
+print("files", spent[0] + ended, ended - began)
 """
 
 #: a large field in memory and a few steps of it
@@ -128,12 +128,19 @@ def start() -> list[dict]:
 
 
 def files() -> list[dict]:
-    """Share of a run's wall time that goes into its files, at the default intervals."""
-    with tempfile.TemporaryDirectory() as folder:
-        printed, _, _ = _run(["-c", _FILES, str(PAPER_CASE), str(FILES_DURATION), str(Path(folder) / "run")])
-    spent, whole = (float(word) for word in printed.split()[-2:])
-    note = f"of {whole:.1f} s for {FILES_DURATION:g} s of cases/pile.toml: tables, snapshots, checkpoints, default intervals"
-    return [_figure("files_percent", 100.0 * spent / whole, "%", note)]
+    """Share of a run's wall time that goes into its files and the watch over its step, at the default intervals, best of three."""
+    found = []
+    for _ in range(3):
+        with tempfile.TemporaryDirectory() as folder:
+            printed, _, _ = _run(["-c", _FILES, str(PAPER_CASE), str(FILES_DURATION), str(Path(folder) / "run")])
+        spent, whole = (float(word) for word in printed.split()[-2:])
+        found.append((spent / whole, spent, whole))
+    share, spent, whole = min(found)
+    note = (
+        f"{spent:.3g} of {whole:.2f} s for {FILES_DURATION:g} s of cases/pile.toml: all but the stepping, so tables, energies, "
+        "snapshots, checkpoints, copies for the check of the step"
+    )
+    return [_figure("files_percent", 100.0 * share, "%", note)]
 
 
 def memory() -> list[dict]:

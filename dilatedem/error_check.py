@@ -19,7 +19,7 @@ from dilatedem.output import checkpoint
 from dilatedem.output.schedule import Schedule
 from dilatedem.state.bodies import Bodies
 from dilatedem.state.clock import Status, clock_at_start
-from dilatedem.state.pairs import Pairs, empty_pairs, grown
+from dilatedem.state.pairs import PackedPairs, packed, unpacked
 from dilatedem.state.record import empty_ledger, empty_loads
 
 #: s between two copies of the state: longer ones cost less time, but the replays that begin at them cost more
@@ -32,8 +32,6 @@ TAIL = 0.1
 CHUNK = 2000
 
 COPIES = ("before", "latest", "worst")  # of a `Watch`, as they are called in a checkpoint
-#: fields of `Pairs` with a row per pair
-_ROWS = tuple(name for name, values in empty_pairs(0)._asdict().items() if len(values) == 0)
 
 
 class Moment(NamedTuple):
@@ -48,16 +46,14 @@ class Copy(NamedTuple):
 
     moment: Moment
     bodies: Bodies
-    pairs: Pairs  # rows in use alone
+    pairs: PackedPairs
 
     @classmethod
     def of(cls, state) -> "Copy":
-        count = int(state.pairs.count[0])
-        pairs = {name: values[:count] if name in _ROWS else values for name, values in state.pairs._asdict().items()}
         return cls(
             Moment(state.clock.step.copy(), state.loads.step_load.copy()),
             Bodies(*(values.copy() for values in state.bodies)),
-            Pairs(**{name: values.copy() for name, values in pairs.items()}),
+            packed(state.pairs),
         )
 
     @property
@@ -89,9 +85,10 @@ class Watch:
     def look(self, state) -> None:
         """At every end of a window of forces.csv, before it is closed, at every window of this watch, and at the run's end."""
         step, loads = int(state.clock.step[0]), state.loads
-        if loads.steps[0] > 0 and loads.window_extreme[:, 4].max(initial=0.0) > self.peak:
-            self.structure = int(loads.window_extreme[:, 4].argmax())
-            self.peak, self.until = float(loads.window_extreme[self.structure, 4]), step
+        highest = loads.window_extreme[:, 4].tolist() if loads.steps[0] > 0 else []
+        if max(highest, default=0.0) > self.peak:
+            self.peak, self.until = max(highest), step
+            self.structure = highest.index(self.peak)
             early = self.seen < self.latest.step + LEAD / self.dt
             self.worst = self.before if early and self.before else self.latest
         self.seen = step
@@ -109,7 +106,7 @@ class Watch:
 
     def restore(self, groups: dict[str, dict], figures: dict, *, where: str) -> None:
         """Take up `groups` and `figures` of a checkpoint. Raises CaseError as `checkpoint.restore`."""
-        kinds = {"moment": Moment, "bodies": Bodies, "pairs": Pairs}
+        kinds = {"moment": Moment, "bodies": Bodies, "pairs": PackedPairs}
         for name in COPIES:
             if f"{name}_moment" in groups:
                 parts = (checkpoint.restore(kind, groups[f"{name}_{part}"], where=where) for part, kind in kinds.items())
@@ -169,7 +166,7 @@ def replay(simulation, steps: int, parts: int, asked: Callable[[], bool]) -> dic
     copy, s = watch.worst, watch.structure
     state = replace(
         simulation.state, bodies=Bodies(*(values.copy() for values in copy.bodies)),
-        pairs=grown(copy.pairs, 2 * len(copy.pairs.a) + 64), ledger=empty_ledger(),
+        pairs=unpacked(copy.pairs, 2 * len(copy.pairs.a) + 64), ledger=empty_ledger(),
         loads=empty_loads(loads.map_origin, loads.map_span), clock=clock_at_start(),
     )  # fmt: skip
     again = replace(simulation, state=state, dt=simulation.dt / parts)

@@ -13,17 +13,21 @@ from dilatedem.composition import ordered_structures
 from dilatedem.errors import Interrupted
 from dilatedem.geometry.polyhedron import Polyhedron
 from dilatedem.output import checkpoint, folder
-from dilatedem.output.archive import ContactStatistics, FloeTable, LoadMap, write_run_h5
+from dilatedem.output.archive import ContactStatistics, FloeTable, LoadMap, RunArchive
 from dilatedem.output.atomic import write_text
 from dilatedem.output.schedule import Schedule
 from dilatedem.output.summary import versions, write_summary
 from dilatedem.output.tables import BODIES_COLUMNS, ENERGY_COLUMNS, FORCES_COLUMNS, Table
 from dilatedem.output.vtu import SnapshotWriter, pile_column, plane_plate, wrapped, write_pvd, write_structures
+from dilatedem.output.windows import Windows
 from dilatedem.state.record import ANGLE_BINS, HEIGHT_BINS
 
 #: energy terms that are stored (their change counts), and those that came in (+) or went out (-)
 STORED = ("kinetic", "gravity", "buoyancy", "elastic")
 FLOWS = {"work_drag": 1.0, "work_structure": 1.0, "gain_law": 1.0, "loss_damping": -1.0, "loss_friction": -1.0}
+
+#: s of wall time after which, at the latest, new rows and snapshots are in the tables and in ice.pvd (or at the next thing due)
+REFRESH_S = 1.0
 
 
 @dataclass
@@ -44,7 +48,7 @@ class RunOutput:
 
     def __init__(self, simulation, out: Path, saved: dict):
         """Go on writing a run from the checkpoint whose meta is `saved`."""
-        self._prepare(simulation, out)
+        self._prepare(simulation, out, int(simulation.state.clock.step[0]))
         self._tables = {
             name: Table.reopen(out / name, columns, saved["offsets"][name]) for name, columns in self._columns().items()
         }
@@ -53,7 +57,7 @@ class RunOutput:
     def fresh(cls, simulation, out: Path) -> "RunOutput":
         """Start a run folder; what an earlier run left there is removed."""
         self = cls.__new__(cls)
-        self._prepare(simulation, out)
+        self._prepare(simulation, out, -1)
         _clear(out)
         (out / "snapshots").mkdir(parents=True, exist_ok=True)
         case = simulation.case
@@ -64,11 +68,13 @@ class RunOutput:
         self._write_summary("running", "")
         return self
 
-    def _prepare(self, simulation, out: Path) -> None:
+    def _prepare(self, simulation, out: Path, since: int) -> None:
+        """since: the last step that was observed."""
         self._simulation, self._out = simulation, out
         self._structures = ordered_structures(simulation.scene)
         self._writer = SnapshotWriter([shape.outer for shape in simulation.scene.shapes], simulation.scene.order)
         self._began = time.perf_counter()
+        self._archive = self._new_archive()
         self._checked: dict = {}  # what the check of the time step found
         output, pace = simulation.case.output, (simulation.dt, simulation.span)
         self._forces = Schedule(output.force_interval, *pace)
@@ -78,6 +84,9 @@ class RunOutput:
         count = simulation.model.floating
         self._tracked = np.arange(count) if output.track == "all" else np.array(output.track, np.int64)
         self._track = Schedule(output.track_interval if len(self._tracked) else 0.0, *pace)
+        self._look_ahead(since)
+        self._windows = Windows([structure.name for structure in self._structures], simulation.dt)
+        self._listed, self._refreshed = 0, time.monotonic()
 
     @staticmethod
     def _columns() -> dict:
@@ -91,23 +100,41 @@ class RunOutput:
         return self
 
     def __exit__(self, *exception) -> None:
+        self._refresh()
         for table in self._tables.values():
             table.close()
+        self._archive.close()
 
-    def next_due(self, step: int) -> int:
-        """The next step at which something is written."""
-        schedules = (self._forces, self._energy, self._snapshots, self._track, self._checkpoints)
+    def _look_ahead(self, step: int) -> None:
+        """Find out when the next window of forces.csv ends, and when anything else is due, after `step`."""
         watch = self._simulation.state.watch
-        return min(schedule.next_due(step) for schedule in (*schedules, *([watch.windows] if watch else [])))
+        rest = (self._energy, self._track, self._snapshots, self._checkpoints, *([watch.windows] if watch else []))
+        self._window_end = self._forces.next_due(step)
+        self._rest_due = min(schedule.next_due(step) for schedule in rest)
+
+    @property
+    def next_due(self) -> int:
+        """The next step at which something is written."""
+        return min(self._window_end, self._rest_due)
 
     def observe(self, *, last: bool = False) -> None:
         """Write what is due at the present step (`last`: the run's last, which closes every window)."""
-        step = int(self._simulation.state.clock.step[0])
-        watch = self._simulation.state.watch
-        if watch and (last or self._forces.is_due(step) or watch.windows.is_due(step)):
-            watch.look(self._simulation.state)  # before the window of forces.csv is closed
-        if step > 0 and (last or self._forces.is_due(step)):
-            self._write_forces()
+        state = self._simulation.state
+        step = int(state.clock.step[0])
+        closing, rest = last or step == self._window_end, last or step == self._rest_due
+        if state.watch and (closing or state.watch.windows.is_due(step)):
+            state.watch.look(state)  # before the window of forces.csv is closed
+        if closing and state.loads.steps[0] > 0:
+            self._windows.keep(step, state.loads)
+        if closing:
+            self._window_end = self._forces.next_due(step)
+        if rest:
+            self._observe_rest(step, last)
+        if self._windows.full or time.monotonic() - self._refreshed >= REFRESH_S:
+            self._refresh()
+
+    def _observe_rest(self, step: int, last: bool) -> None:
+        """Write what is due besides windows of forces.csv."""
         if last or self._energy.is_due(step):
             self._write_energy()
         if self._track.is_due(step):
@@ -116,6 +143,7 @@ class RunOutput:
             self._write_snapshot()
         if not last and self._checkpoints.is_due(step):
             self._save("running")
+        self._look_ahead(step)
 
     def complete(self, asked: Callable[[], bool] = lambda: False) -> str:
         """The run is at its end: check its time step, if the case wants it. Returns what that found, in a sentence.
@@ -141,7 +169,7 @@ class RunOutput:
 
     def stop(self, message: str) -> None:
         """The simulation cannot go on: keep the last checkpoint, and the state that failed beside it."""
-        self._flush()
+        self._refresh(durable=True)
         self._note_wall_time()
         checkpoint.save(self._out / "stopped.h5", self._simulation.state.groups(), self._meta())
         self._write_archive()
@@ -149,7 +177,7 @@ class RunOutput:
 
     def _save(self, status: str, message: str = "") -> None:
         """Everything up to now, in files that a later run can go on from."""
-        self._flush()
+        self._refresh(durable=True)
         self._write_archive()
         self._note_wall_time()
         checkpoint.save(self._out / folder.CHECKPOINT, self._simulation.state.groups(), self._meta())
@@ -165,9 +193,15 @@ class RunOutput:
         self.totals.wall_s += now - self._began
         self._began = now
 
-    def _flush(self) -> None:
+    def _refresh(self, *, durable: bool = False) -> None:
+        """Bring the tables and the list of snapshots up to this moment; `durable`: tables are on the disk afterwards."""
+        self._windows.work_up(self._tables[folder.FORCES], self.totals.peaks)
         for table in self._tables.values():
-            table.flush(durable=True)
+            table.flush(durable=durable)
+        if self._listed < len(self.totals.snapshots):
+            write_pvd(self._out / folder.ICE_COLLECTION, self.totals.snapshots)
+            self._listed = len(self.totals.snapshots)
+        self._refreshed = time.monotonic()
 
     def _meta(self) -> dict:
         watch = self._simulation.state.watch
@@ -177,34 +211,6 @@ class RunOutput:
             "offsets": {name: table.offset for name, table in self._tables.items()},
             "totals": asdict(self.totals),
         } | ({"watch": watch.figures()} if watch else {})
-
-    def _write_forces(self) -> None:
-        loads, time_s = self._simulation.state.loads, self._simulation.time_s
-        steps = int(loads.steps[0])
-        if steps == 0:
-            return
-        rows = []
-        for s, structure in enumerate(self._structures):
-            mean = loads.window_sum[s] / steps
-            extreme = loads.window_extreme[s]
-            rows.append([time_s, structure.name, *mean.tolist(), *extreme.tolist(), loads.contact_sum[s] / steps])
-            self._note_peaks(structure.name, extreme, loads.window_sum[s], steps)
-        self._tables[folder.FORCES].append(rows)
-        loads.steps[0] = 0
-
-    def _note_peaks(self, name: str, extreme: np.ndarray, window_sum: np.ndarray, steps: int) -> None:
-        peak = self.totals.peaks.setdefault(name, {
-            "fx_max_N": 0.0, "fx_min_N": 0.0, "fy_max_N": 0.0, "fy_min_N": 0.0, "fh_max_N": 0.0, "fh_max_time_s": 0.0,
-            "fx_sum": 0.0, "fy_sum": 0.0, "steps": 0,
-        })  # fmt: skip
-        fx_min, fx_max, fy_min, fy_max, fh_max = extreme.tolist()
-        peak["fx_min_N"], peak["fx_max_N"] = min(peak["fx_min_N"], fx_min), max(peak["fx_max_N"], fx_max)
-        peak["fy_min_N"], peak["fy_max_N"] = min(peak["fy_min_N"], fy_min), max(peak["fy_max_N"], fy_max)
-        if fh_max > peak["fh_max_N"]:
-            peak["fh_max_N"], peak["fh_max_time_s"] = fh_max, self._simulation.time_s
-        peak["fx_sum"] += float(window_sum[0])
-        peak["fy_sum"] += float(window_sum[1])
-        peak["steps"] += steps
 
     def _write_energy(self) -> None:
         terms, totals = self._simulation.energies(), self.totals
@@ -244,11 +250,19 @@ class RunOutput:
             },
         )
         totals.snapshots.append([simulation.time_s, folder.snapshot_name(number)])
-        write_pvd(self._out / folder.ICE_COLLECTION, totals.snapshots)
 
-    def _write_archive(self) -> None:
-        simulation = self._simulation
-        loads, scene = simulation.state.loads, simulation.scene
+    def _new_archive(self) -> RunArchive:
+        model, scene = self._simulation.model, self._simulation.scene
+        count = model.floating
+        return RunArchive(*self._contact_record(), FloeTable(
+            body=np.arange(count), x0=scene.position[:, 0], y0=scene.position[:, 1], plan_area=scene.plan_area,
+            mass=model.solids.mass[:count], volume=scene.volume(),
+            vertices=np.diff(model.shapes.vertex_start)[:count], outlines=scene.outlines,
+        ))  # fmt: skip
+
+    def _contact_record(self) -> tuple[list[LoadMap], dict[str, ContactStatistics]]:
+        """Load maps and contact statistics of this moment."""
+        simulation, loads = self._simulation, self._simulation.state.loads
         maps = []
         for s, structure in enumerate(self._structures):
             half, low, high = loads.map_span[s]
@@ -264,15 +278,11 @@ class RunOutput:
             partners: ContactStatistics(loads.mode_steps[p], loads.mode_impulse[p], loads.mode_force[p], loads.mode_overlap[p])
             for p, partners in enumerate(("ice_ice", "ice_structure"))
         }
-        count = simulation.model.floating
-        write_run_h5(
-            self._out / folder.RUN_ARCHIVE, maps, statistics,
-            FloeTable(
-                body=np.arange(count), x0=scene.position[:, 0], y0=scene.position[:, 1], plan_area=scene.plan_area,
-                mass=simulation.model.solids.mass[:count], volume=scene.volume(),
-                vertices=np.diff(simulation.model.shapes.vertex_start)[:count], outlines=scene.outlines,
-            ),
-        )  # fmt: skip
+        return maps, statistics
+
+    def _write_archive(self) -> None:
+        self._archive.update(*self._contact_record())
+        self._archive.write(self._out / folder.RUN_ARCHIVE)
 
     def _write_summary(self, status: str, message: str) -> None:
         simulation, totals = self._simulation, self.totals

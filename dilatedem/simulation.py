@@ -31,7 +31,7 @@ from dilatedem.run_output import RunOutput, Totals
 from dilatedem.state.bodies import Bodies
 from dilatedem.state.clock import Clock, Status, clock_at_start
 from dilatedem.state.model import Model
-from dilatedem.state.pairs import Pairs, empty_pairs, grown
+from dilatedem.state.pairs import Pairs, empty_pairs, grown, in_use
 from dilatedem.state.record import Ledger, Loads, Tally, empty_ledger, empty_loads, empty_tally
 from dilatedem.state.workspace import Cells, Workspace, make_cells, make_workspace
 from dilatedem.steps import free_span, time_step, total_steps
@@ -55,8 +55,8 @@ class State:
     watch: Watch | None = None  # of the highest load, where `time.error_check` asks for it
 
     def groups(self) -> dict:
-        own = {name: getattr(self, name) for name in ("bodies", "pairs", "ledger", "loads", "clock")}
-        return own | (self.watch.groups() if self.watch else {})
+        own = {name: getattr(self, name) for name in ("bodies", "ledger", "loads", "clock")}
+        return own | {"pairs": in_use(self.pairs)} | (self.watch.groups() if self.watch else {})
 
 
 @dataclass
@@ -260,14 +260,15 @@ def _compile(simulation: Simulation, progress: Progress) -> float:
 def _loop(simulation: Simulation, output: RunOutput, steps: int, progress: Progress, interruption: Interruption) -> None:
     """Advance from one due output to the next until the end, an interruption or a fault."""
     clock, longest = simulation.state.clock, -(-LONGEST_CHUNK // simulation.span) * simulation.span
-    progress.update(simulation.time_s, int(clock.step[0]), simulation.contacts)
-    while clock.step[0] < steps:
-        now = int(clock.step[0])
-        status = simulation.advance(min(output.next_due(now), steps, now + longest) - now)
+    now = int(clock.step[0])
+    progress.update(simulation.time_s, now, lambda: simulation.contacts)
+    while now < steps:
+        status = simulation.advance(min(output.next_due, steps, now + longest) - now)
         _stop_on_fault(simulation, output, status)
-        output.observe(last=clock.step[0] == steps)
-        progress.update(simulation.time_s, int(clock.step[0]), simulation.contacts)
-        if interruption.asked and clock.step[0] < steps:
+        now = int(clock.step[0])
+        output.observe(last=now == steps)
+        progress.update(simulation.time_s, now, lambda: simulation.contacts)
+        if interruption.asked and now < steps:
             output.interrupt()
             raise Interrupted(f"interrupted at t = {simulation.time_s:.4f} s; the state is saved, --resume goes on from it")
     found = output.complete(lambda: interruption.asked)
@@ -301,10 +302,10 @@ def _load_checkpoint(out: Path, case: Case, simulation: Simulation) -> dict:
     if meta["dt"] != simulation.dt:
         steps = f"{meta['dt']:g} s, this program takes {simulation.dt:g} s"
         raise CaseError(f"{out / folder.CHECKPOINT}: has steps of {steps}; run anew with --overwrite")
-    state = simulation.state
+    state, room = simulation.state, len(simulation.state.pairs.a)
     for name, current in state.groups().items():
         setattr(state, name, checkpoint.restore(type(current), groups[name], where=str(out / folder.CHECKPOINT)))
-    state.pairs = grown(state.pairs, len(state.pairs.a))
+    state.pairs = grown(state.pairs, max(room, len(state.pairs.a)))
     state.totals = Totals(**meta["totals"])
     if state.watch:
         state.watch.restore(groups, meta["watch"], where=str(out / folder.CHECKPOINT))

@@ -12,8 +12,8 @@ def replacing(path, *, durable: bool = False) -> Iterator[Path]:
 
     If the block fails the temporary file is removed and the old file stays. A kill leaves a stale `*.tmp`,
     which the next write of the same file overwrites (its name is fixed for that reason). `durable` also
-    forces the data to the disk before the exchange: needed against a power cut only, so checkpoints pay for
-    it, snapshots do not.
+    forces the data to the disk before the exchange, so that after a power cut, too, there is either file as a whole: checkpoints
+    pay for it, snapshots do not. The exchange is not forced: the old checkpoint is as good, and the system writes it in seconds.
     """
     path = Path(path)
     temporary = path.with_name(path.name + ".tmp")
@@ -25,8 +25,6 @@ def replacing(path, *, durable: bool = False) -> Iterator[Path]:
     except BaseException:
         temporary.unlink(missing_ok=True)
         raise
-    if durable:
-        _force_to_disk(path.parent)
 
 
 def write_text(path, text: str, *, durable: bool = False) -> None:
@@ -36,9 +34,6 @@ def write_text(path, text: str, *, durable: bool = False) -> None:
 
 
 def _force_to_disk(path: Path) -> None:
-    # A folder can be opened and synchronised on POSIX only; elsewhere the exchange itself has to do.
-    if os.name != "posix" and path.is_dir():
-        return
     descriptor = os.open(path, os.O_RDONLY if os.name == "posix" else os.O_RDWR)
     try:
         os.fsync(descriptor)

@@ -1,10 +1,14 @@
 """restart.h5: every field of the varying state, dumped without knowing what the fields mean.
 
-A group per NamedTuple, a dataset per field. Fields added to the state by new physics are saved, and asked for
-on restart, without a change here, so a restart cannot lag behind the model.
+All arrays lie one after the other in one dataset of bytes, `state`; a text in JSON beside it, `contents`, tells where, and holds
+what is no array. Fields added to the state by new physics are saved, and asked for on restart, without a change here, so a restart
+cannot lag behind the model. A dataset per field would be friendlier to foreign eyes, but HDF5 takes 80 us for each: with some 200
+fields that was 3 % of a run.
 """
 
 import json
+import math
+from collections.abc import Iterable
 from pathlib import Path
 from typing import NamedTuple, TypeVar
 
@@ -14,8 +18,9 @@ import numpy as np
 from dilatedem.errors import CaseError
 from dilatedem.output.atomic import replacing
 
-FORMAT = 1  # raised when the layout of the file changes
-PYTHON_TYPE = "python_type"  # attribute on scalars that were plain Python numbers or text
+FORMAT = 2  # raised when the layout of the file changes
+ALIGNMENT = 8  # bytes; every array begins at a multiple
+PART_BYTES = 1 << 20  # so much is put together in memory before it is written
 
 State = TypeVar("State", bound=tuple)
 
@@ -28,14 +33,30 @@ def save(path, groups: dict[str, NamedTuple], meta: dict) -> None:
 
     Raises TypeError for a field that is neither.
     """
+    arrays: list[np.ndarray] = []
+    size, fields = 0, {}
+    for name, state in groups.items():
+        fields[name] = entries = {}
+        for field, value in state._asdict().items():
+            if isinstance(value, np.ndarray | np.generic) and value.dtype.kind in "fiub":
+                entries[field] = [size, value.dtype.str, value.shape]
+                arrays.append(value)
+                size += _padded(value.nbytes)
+            elif isinstance(value, bool | int | float | str):
+                entries[field] = value
+            else:
+                kind = getattr(value, "dtype", type(value).__name__)
+                raise TypeError(f"{name}/{field}: cannot be saved: it is no number, no text and no array of numbers, but {kind}")
+    contents = json.dumps({"fields": fields, "meta": meta}).encode()
     with replacing(path, durable=True) as temporary:
         with h5py.File(temporary, "w") as file:
             file.attrs["format"] = FORMAT
-            file.attrs["meta"] = json.dumps(meta)
-            for name, state in groups.items():
-                group = file.create_group(name, track_order=True)
-                for field, value in state._asdict().items():
-                    _save_field(group, field, value)
+            file["contents"] = np.frombuffer(contents, np.uint8)
+            state = file.create_dataset("state", (size,), np.uint8)
+            start = 0
+            for part in _parts(arrays):
+                state[start : start + len(part)] = np.frombuffer(part, np.uint8)
+                start += len(part)
 
 
 def load(path) -> tuple[dict[str, dict[str, object]], dict]:
@@ -51,12 +72,13 @@ def load(path) -> tuple[dict[str, dict[str, object]], dict]:
             found = int(file.attrs["format"])
             if found != FORMAT:
                 raise CaseError(f"{path}: checkpoint format {found}, but this version reads {FORMAT}")
+            contents = json.loads(file["contents"][()].tobytes())
             groups = {
-                name: {field: _load_field(dataset) for field, dataset in group.items()}
-                for name, group in file.items()
+                name: {field: _loaded(entry, file["state"]) for field, entry in entries.items()}
+                for name, entries in contents["fields"].items()
             }
-            return groups, json.loads(file.attrs["meta"])
-    except (OSError, KeyError, ValueError) as fault:
+        return groups, contents["meta"]
+    except (OSError, KeyError, TypeError, ValueError) as fault:
         raise CaseError(f"{path}: is not a readable checkpoint ({fault})") from fault
 
 
@@ -76,21 +98,27 @@ def restore(kind: type[State], fields: dict[str, object], *, where: str = "the c
     return kind(**fields)
 
 
-def _save_field(group: h5py.Group, field: str, value) -> None:
-    if isinstance(value, np.ndarray | np.generic):
-        if value.dtype.kind not in "fiub":
-            raise TypeError(f"{group.name}/{field}: cannot be saved as it holds {value.dtype}, not numbers")
-        group.create_dataset(field, data=value)
-    elif isinstance(value, bool | int | float | str):
-        dataset = group.create_dataset(field, data=value)
-        dataset.attrs[PYTHON_TYPE] = type(value).__name__
-    else:
-        raise TypeError(f"{group.name}/{field}: cannot be saved as it is a {type(value).__name__}")
+def _padded(size: int) -> int:
+    return -(-size // ALIGNMENT) * ALIGNMENT
 
 
-def _load_field(dataset: h5py.Dataset):
-    python_type = dataset.attrs.get(PYTHON_TYPE)
-    if python_type == "str":
-        return dataset.asstr()[()]
-    value = dataset[()]
-    return value if python_type is None else value.item()
+def _parts(arrays: Iterable[np.ndarray]) -> Iterable[bytes]:
+    """The bytes of all arrays, each padded, in parts of PART_BYTES or a little more: a large state is not held twice."""
+    part: list[bytes] = []
+    held = 0
+    for array in arrays:
+        part.append(array.tobytes().ljust(_padded(array.nbytes), b"\0"))
+        held += len(part[-1])
+        if held >= PART_BYTES:
+            yield b"".join(part)
+            part, held = [], 0
+    yield b"".join(part)
+
+
+def _loaded(entry, state: h5py.Dataset):
+    """A field from its entry in `contents`: itself, or where in `state` its array begins, of what type and shape it is."""
+    if not isinstance(entry, list):
+        return entry
+    start, kind, shape = entry[0], np.dtype(entry[1]), entry[2]
+    array = state[start : start + kind.itemsize * math.prod(shape)].view(kind).reshape(shape)
+    return array[()]  # an array of no dimension is a number

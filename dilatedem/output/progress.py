@@ -37,7 +37,7 @@ class Progress:
         self._clock = clock
         self._samples: deque[tuple[float, float, int]] = deque(maxlen=SAMPLE_COUNT)
         self._shown_at: float | None = None
-        self._latest: tuple[float, int, int] | None = None
+        self._latest: tuple[float, int, Callable[[], int]] | None = None
         self._bar = None
 
     def __enter__(self) -> "Progress":
@@ -51,8 +51,11 @@ class Progress:
         if self._bar is not None:
             self._bar.stop()
 
-    def update(self, time_s: float, steps: int, contacts: int) -> None:
-        """Tell how far the run is: simulated time [s], steps so far, contacts now. Cheap: call it often."""
+    def update(self, time_s: float, steps: int, contacts: Callable[[], int]) -> None:
+        """Tell how far the run is: simulated time [s], steps so far, how to count the contacts of now.
+
+        Cheap: call it often. They are counted when they are shown.
+        """
         if self._quiet:
             return
         now = self._clock()
@@ -87,7 +90,7 @@ class Progress:
         else:
             left = f"{_wall_time(remaining / speed)} left" if speed > 0.0 else "time left unknown"
         reached = f"{time_s:.2f} of {self._duration_s:g} s"
-        figures = f"{reached}, {left}, {step_rate:,.0f} steps/s, {contacts} contacts"
+        figures = f"{reached}, {left}, {step_rate:,.0f} steps/s, {contacts()} contacts"
         if self._bar is not None:
             self._bar.draw(time_s, figures)
         else:

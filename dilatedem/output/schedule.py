@@ -22,8 +22,8 @@ class Schedule:
     interval_s: float
     dt: float
     span: int = 1
-    #: a step and the first due step after it, as last found: what is asked next lies between them nearly always
-    _known: list[int] = field(default_factory=lambda: [0, -1], init=False, repr=False, compare=False)
+    #: a step, the first due step after it and its event, as last found: what is asked next lies between them nearly always
+    _known: list[int] = field(default_factory=lambda: [0, -1, -1], init=False, repr=False, compare=False)
 
     def __post_init__(self):
         if not (self.interval_s >= 0.0 and math.isfinite(self.interval_s)):
@@ -52,11 +52,17 @@ class Schedule:
 
     def next_due(self, step: int) -> int:
         """The first due step after `step` (NEVER if there is none); next_due(-1) is 0."""
-        since, due = self._known
+        since, due, event = self._known
         if not since <= step < due:
-            due = self.due_step(self.events_until(step))
-            self._known[:] = step, due
+            following = self.due_step(event + 1)
+            event, due = (event + 1, following) if step == due < following else self._next_event(step)
+            self._known[:] = step, due, event
         return due
+
+    def _next_event(self, step: int) -> tuple[int, int]:
+        """Number and due step of the first event after `step`."""
+        event = self.events_until(step)
+        return event, self.due_step(event)
 
     def is_due(self, step: int) -> bool:
         """Whether an event is due at `step`."""

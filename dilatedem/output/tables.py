@@ -1,6 +1,7 @@
 """CSV tables that only grow, and go on after a restart byte for byte as if the run had never stopped."""
 
 import csv
+import functools
 import io
 import os
 from collections.abc import Iterable, Sequence
@@ -82,6 +83,7 @@ class Table:
         self._pending: list[bytes] = []
         self._pending_bytes = 0
         self._offset = 0
+        self._durable = 0  # bytes that are known to be on the disk
 
     @property
     def offset(self) -> int:
@@ -100,14 +102,23 @@ class Table:
         if lines:
             self._write("".join(lines).encode())
 
+    def append_columns(self, columns: Sequence[list]) -> None:
+        """Add rows given column by column, in half the time that many rows take."""
+        width, count = len(self.columns), len(columns[0])
+        entries = [None] * (width * count)
+        for i, column in enumerate(columns):
+            entries[i::width] = map(_quoted_text, column) if i in self._text else column
+        self._write((self._line * count % tuple(entries)).encode())
+
     def flush(self, *, durable: bool = False) -> None:
         """Hand all rows to the system; `durable`: wait until they are on the disk (before a checkpoint)."""
         if self._pending:
             _write_whole(self._file, b"".join(self._pending))
             self._pending.clear()
             self._pending_bytes = 0
-        if durable:
+        if durable and self._offset > self._durable:
             os.fsync(self._file.fileno())
+            self._durable = self._offset
 
     def close(self) -> None:
         """Flush and close; closing twice does no harm."""
@@ -139,6 +150,7 @@ def _column_format(name: str) -> str:
     return "%s" if name in TEXT_COLUMNS else NUMBER_FORMAT
 
 
+@functools.cache
 def _quoted_text(text: str) -> str:
     """`text` as a CSV field: quoted only where it has to be."""
     if not any(mark in text for mark in ',"\r\n'):

@@ -6,6 +6,7 @@ VTK and meshio read the files alike. Their time is not in them but in the PVD co
 """
 
 import base64
+import struct
 import sys
 import zlib
 from collections.abc import Sequence
@@ -61,7 +62,13 @@ class SnapshotWriter:
         packed = pack_polyhedra(stacks, place_in_file[order])
         self._vertices = packed.vertex
         self._owner = np.repeat(self._order, by_body[self._order])
-        self._cells = _cells_element(packed)
+        self._begin = (
+            f'<?xml version="1.0"?>\n<VTKFile type="UnstructuredGrid" version="0.1" header_type="UInt32" '
+            f'byte_order="{"LittleEndian" if sys.byteorder == "little" else "BigEndian"}" '
+            f'compressor="vtkZLibDataCompressor">\n<UnstructuredGrid>\n'
+            f'<Piece NumberOfPoints="{len(self._owner)}" NumberOfCells="{len(self._order)}">\n<Points>\n'
+        ).encode()
+        self._cells = b"</Points>\n" + _cells_element(packed) + b"<CellData>\n"
 
     def write(self, path, position, orientation, cell_data: dict[str, np.ndarray]) -> None:
         """Write the bodies in the pose given, atomically.
@@ -79,19 +86,14 @@ class SnapshotWriter:
         points = np.einsum("nij,nj->ni", rotation[self._owner], self._vertices)
         points += np.asarray(position)[self._owner]
         parts = [
-            f'<?xml version="1.0"?>\n<VTKFile type="UnstructuredGrid" version="0.1" header_type="UInt32" '
-            f'byte_order="{"LittleEndian" if sys.byteorder == "little" else "BigEndian"}" '
-            f'compressor="vtkZLibDataCompressor">\n<UnstructuredGrid>\n'
-            f'<Piece NumberOfPoints="{len(points)}" NumberOfCells="{len(self._order)}">\n<Points>\n',
+            self._begin,
             _data_array("Points", points),
-            "</Points>\n",
             self._cells,
-            "<CellData>\n",
             *(_data_array(name, array[self._order]) for name, array in cell_data.items()),
-            "</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n",
+            b"</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n",
         ]
         with replacing(path) as temporary:
-            temporary.write_bytes("".join(parts).encode())
+            temporary.write_bytes(b"".join(parts))
 
 
 def write_shapes(path, outers: Sequence[Polyhedron], position, orientation, cell_data: dict, order=None) -> None:
@@ -179,7 +181,7 @@ def _checked(cell_data: dict[str, np.ndarray], count: int) -> dict[str, np.ndarr
     return arrays
 
 
-def _cells_element(packed: PackedPolyhedra) -> str:
+def _cells_element(packed: PackedPolyhedra) -> bytes:
     """The Cells element: per cell its vertices, and its faces as [faces, (vertices, vertex, ...) of each]."""
     cells, faces = len(packed.vertex_start) - 1, np.diff(packed.face_start)
     cell = np.repeat(np.arange(cells), faces)  # of each face
@@ -198,18 +200,15 @@ def _cells_element(packed: PackedPolyhedra) -> str:
         "faces": stream,
         "faceoffsets": cell_at[1:],
     }
-    content = "".join(_data_array(name, array.astype(np.int64)) for name, array in arrays.items())
-    return f"<Cells>\n{content}</Cells>\n"
+    content = b"".join(_data_array(name, array.astype(np.int64)) for name, array in arrays.items())
+    return b"<Cells>\n" + content + b"</Cells>\n"
 
 
-def _data_array(name: str, array: np.ndarray) -> str:
+def _data_array(name: str, array: np.ndarray) -> bytes:
     """A DataArray: header (number of blocks, block size, last block's, compressed sizes), then the blocks."""
     kind = {"f": "Float64", "i": "Int64"}[array.dtype.kind]
     components = f' NumberOfComponents="{array.shape[1]}"' if array.ndim == 2 else ""
-    raw = array.tobytes()
-    blocks = [zlib.compress(raw, COMPRESSION)] if raw else []
-    header = np.array([len(blocks), len(raw), len(raw), *map(len, blocks)], dtype=np.uint32)
-    content = (base64.b64encode(part).decode() for part in (header.tobytes(), *blocks))
-    return (
-        f'<DataArray type="{kind}" Name="{name}"{components} format="binary">{"".join(content)}</DataArray>\n'
-    )
+    blocks = [zlib.compress(np.ascontiguousarray(array), COMPRESSION)] if array.size else []
+    header = struct.pack(f"={3 + len(blocks)}I", len(blocks), array.nbytes, array.nbytes, *map(len, blocks))
+    begin = f'<DataArray type="{kind}" Name="{name}"{components} format="binary">'.encode()
+    return b"".join([begin, *map(base64.b64encode, (header, *blocks)), b"</DataArray>\n"])

@@ -97,3 +97,44 @@ def grown(pairs: Pairs, capacity: int) -> Pairs:
         old = getattr(pairs, name)
         getattr(larger, name)[: len(old)] = old
     return larger
+
+
+def in_use(pairs: Pairs) -> Pairs:
+    """The same pairs without the rows beyond `count`: views, not copies."""
+    count = int(pairs.count[0])
+    return Pairs(*(values if name in _ALONE else values[:count] for name, values in pairs._asdict().items()))
+
+
+class PackedPairs(NamedTuple):
+    """A copy of the rows in use as they lie in memory: field by field, copying takes ten times as long."""
+
+    count: np.ndarray
+    frame: np.ndarray
+    limit: np.ndarray
+    a: np.ndarray
+    b: np.ndarray
+    wake: np.ndarray
+    rows: np.ndarray  # (m, columns) all other fields of `Pairs`
+
+
+def packed(pairs: Pairs) -> PackedPairs:
+    """Pairs, laid out as `empty_pairs` does, as they are now."""
+    count = int(pairs.count[0])
+    alone = (getattr(pairs, name).copy() for name in _ALONE)
+    return PackedPairs(*alone, *(getattr(pairs, name)[:count].copy() for name in _SCANNED), _rows(pairs)[:count].copy())
+
+
+def unpacked(copy: PackedPairs, capacity: int) -> Pairs:
+    """The same pairs with room for `capacity`."""
+    pairs = empty_pairs(capacity)
+    for name in (*_ALONE, *_SCANNED):
+        values = getattr(copy, name)
+        getattr(pairs, name)[: len(values)] = values
+    _rows(pairs)[: len(copy.rows)] = copy.rows
+    return pairs
+
+
+def _rows(pairs: Pairs) -> np.ndarray:
+    """(m, columns) the rows of memory whose columns the other fields are; `rounds` is the first."""
+    row, number = pairs.rounds.strides[0], pairs.rounds.itemsize
+    return np.lib.stride_tricks.as_strided(pairs.rounds, (len(pairs.rounds), row // number), (row, number))

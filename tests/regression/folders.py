@@ -8,6 +8,8 @@ from pathlib import Path
 import h5py
 import numpy as np
 
+from dilatedem.output import checkpoint
+
 ROOT = Path(__file__).parents[2]
 CASES = ROOT / "tests" / "cases"
 
@@ -36,18 +38,22 @@ def assert_same_run(folder: Path, expected: Path) -> None:
     assert sorted(path.relative_to(folder) for path in folder.glob("snapshots/*.vtu")) == snapshots
     for name in (*EXACT, *snapshots):
         assert (folder / name).read_bytes() == (expected / name).read_bytes(), f"{name} differs"
-    for name in ("run.h5", "restart.h5"):
+    for name, numbers in (("run.h5", datasets), ("restart.h5", saved)):
         found, wanted = numbers(folder / name), numbers(expected / name)
         assert found.keys() == wanted.keys()
         differing = [key for key in wanted if not np.array_equal(found[key], wanted[key], equal_nan=True)]
         assert not differing, f"{name}: {differing} differ"
 
 
-def numbers(path: Path) -> dict[str, np.ndarray]:
-    """All datasets of an HDF5 file; of a list of pairs the rows in use (what lies beyond depends on when the list grew)."""
+def datasets(path: Path) -> dict[str, np.ndarray]:
+    """All datasets of an HDF5 file."""
     found: dict[str, np.ndarray] = {}
     with h5py.File(path) as file:
         file.visititems(lambda name, item: found.update({name: item[()]}) if isinstance(item, h5py.Dataset) else None)
-    in_use = int(found["pairs/count"][0]) if "pairs/count" in found else 0
-    whole = ("pairs/count", "pairs/frame", "pairs/limit")
-    return {name: values[:in_use] if name.startswith("pairs/") and name not in whole else values for name, values in found.items()}
+    return found
+
+
+def saved(path: Path) -> dict[str, np.ndarray]:
+    """All fields of a checkpoint."""
+    groups, _ = checkpoint.load(path)
+    return {f"{name}/{field}": value for name, fields in groups.items() for field, value in fields.items()}

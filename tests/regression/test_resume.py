@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from folders import CASES, assert_same_run, command, dilatedem, environment, numbers
+from folders import CASES, assert_same_run, command, dilatedem, environment, saved
 
 from dilatedem import simulation
 from dilatedem.case.load import load
@@ -182,6 +182,6 @@ def test_the_check_of_the_step_changes_no_other_file(checked, tmp_path):
     for name in names:
         if name.name not in ("case.toml", "restart.h5", "summary.json", "run.h5"):
             assert (out / name).read_bytes() == (checked / name).read_bytes(), name
-    found, wanted = numbers(checked / "restart.h5"), numbers(out / "restart.h5")
+    found, wanted = saved(checked / "restart.h5"), saved(out / "restart.h5")
     assert not [name for name in wanted if not np.array_equal(found[name], wanted[name])]
     assert found.keys() > wanted.keys()

@@ -18,7 +18,7 @@ from dilatedem.post import info, post
 from dilatedem.simulation import Simulation
 from dilatedem.state.bodies import bodies_at_rest
 from dilatedem.state.clock import Status, clock_at_start
-from dilatedem.state.pairs import empty_pairs
+from dilatedem.state.pairs import empty_pairs, in_use, packed, unpacked
 from dilatedem.state.record import empty_loads
 
 CASES = Path(__file__).parents[1] / "cases"
@@ -159,6 +159,18 @@ def test_the_check_leaves_the_run_as_it_is():
     for name, group in run.state.groups().items():
         for part, values in group._asdict().items():
             np.testing.assert_array_equal(values, before[f"{name}.{part}"], err_msg=f"{name}.{part}")
+
+
+def test_a_copy_of_the_pairs_holds_all_of_them():
+    pairs = played(one_floe()).state.pairs
+    assert pairs.count[0] > 0
+    copy = packed(pairs)
+    again = unpacked(copy, len(pairs.a) + 7)
+    for name, values in in_use(pairs)._asdict().items():
+        assert getattr(in_use(again), name).tobytes() == values.tobytes(), name
+    pairs.rounds[0] += 1
+    pairs.a[0] += 1
+    assert again.rounds[0] == copy.rows[0, 0] == pairs.rounds[0] - 1 and copy.a[0] == pairs.a[0] - 1
 
 
 def watched(peaks: dict[float, float], *, end: float, dt: float = 1e-3) -> Watch:

@@ -3,12 +3,13 @@
 import csv
 import json
 from pathlib import Path
+from xml.etree import ElementTree
 
 import h5py
 import numpy as np
 import pytest
 
-from dilatedem import simulation
+from dilatedem import run_output, simulation
 from dilatedem.case.load import load
 from dilatedem.output.schedule import Schedule
 from dilatedem.simulation import Simulation
@@ -211,8 +212,6 @@ def test_vtks_own_volumes_add_up_in_every_snapshot(crowded):
 
 
 def test_every_snapshot_is_in_the_collection_with_its_time(crowded):
-    from xml.etree import ElementTree
-
     entries = [entry.attrib for entry in ElementTree.parse(crowded / "ice.pvd").iter("DataSet")]
     assert [entry["file"] for entry in entries] == [f"snapshots/ice_{number:06d}.vtu" for number in range(17)]
     np.testing.assert_allclose([float(entry["timestep"]) for entry in entries], np.arange(17) * 0.25, atol=4e-5)
@@ -221,3 +220,43 @@ def test_every_snapshot_is_in_the_collection_with_its_time(crowded):
 def test_structures_are_drawn_for_paraview(mixed):
     grid = read_by_vtk(mixed / "structures.vtu")
     assert grid.GetNumberOfCells() == 6  # the post, the slope, four walls
+
+
+class PullTheCable(Exception):
+    pass
+
+
+@pytest.mark.parametrize(("refresh_s", "there"), [(0.0, True), (1e9, False)])
+def test_rows_and_snapshots_reach_their_files_while_a_run_goes_on(refresh_s, there, monkeypatch, tmp_path):
+    """All of them a second after they came at the latest, whenever the next checkpoint may be."""
+    monkeypatch.setattr(run_output, "REFRESH_S", refresh_s)
+    out, advance = tmp_path / "run", Simulation.advance
+
+    def stop_at_a_third(self, steps, **more):
+        if self.model.floating > 1 and self.time_s > 0.33:
+            forces = table_or_none(out / "forces.csv")
+            assert (forces is not None and forces["time_s"][-1] > 0.29) == there
+            assert (out / "ice.pvd").read_text().count("<DataSet") == (4 if there else 1)  # the first checkpoint is at t = 0
+            raise PullTheCable
+        return advance(self, steps, **more)
+
+    monkeypatch.setattr(Simulation, "advance", stop_at_a_third)
+    with pytest.raises(PullTheCable):
+        simulation.run(load(CROWDED, ["output.snapshot_interval=0.1"]), out, quiet=True)
+    # what a fault of the program itself leaves: everything up to then
+    assert table(out / "forces.csv")["time_s"][-1] > 0.29
+    entries = [entry.attrib["file"] for entry in ElementTree.parse(out / "ice.pvd").iter("DataSet")]
+    assert entries == [f"snapshots/ice_{number:06d}.vtu" for number in range(4)]
+
+
+def table_or_none(path: Path) -> dict[str, np.ndarray] | None:
+    return table(path) if path.read_text().count("\n") > 1 else None
+
+
+def test_how_often_files_are_brought_up_to_date_changes_no_byte(short_run, monkeypatch, tmp_path):
+    monkeypatch.setattr(run_output, "REFRESH_S", 0.0)
+    again = simulation.run(load(CROWDED, [f"time.duration={CLOSE_LOOK}"]), tmp_path / "again", quiet=True)
+    for name in ("forces.csv", "energy.csv", "bodies.csv", "ice.pvd", "run.h5"):
+        assert (again / name).read_bytes() == (short_run / name).read_bytes(), name
+    told, expected = (json.loads((out / "summary.json").read_text()) for out in (again, short_run))
+    assert told["loads"] == expected["loads"]

@@ -1,8 +1,10 @@
+from dataclasses import replace
+
 import h5py
 import numpy as np
 import pytest
 
-from dilatedem.output.archive import ContactStatistics, FloeTable, LoadMap, write_run_h5
+from dilatedem.output.archive import ContactStatistics, FloeTable, LoadMap, RunArchive
 from dilatedem.state.modes import MODE_NAMES
 
 
@@ -33,10 +35,16 @@ def content(duration=2.0):
     return [pile, plane], statistics, floes
 
 
+def written(path, *content):
+    archive = RunArchive(*content)
+    archive.write(path)
+    archive.close()
+
+
 def test_layout(tmp_path):
     path = tmp_path / "run.h5"
     maps, statistics, floes = content()
-    write_run_h5(path, maps, statistics, floes)
+    written(path, maps, statistics, floes)
     with h5py.File(path) as file:
         pile, plane = file["load_map/pile"], file["load_map/wall"]
         np.testing.assert_array_equal(pile["impulse_Ns"], maps[0].impulse)
@@ -61,31 +69,46 @@ def test_layout(tmp_path):
 
 def test_rewritten_whole_and_reproducibly(tmp_path):
     path = tmp_path / "run.h5"
-    write_run_h5(path, *content(duration=1.0))
+    written(path, *content(duration=1.0))
     (tmp_path / "run.h5.tmp").write_bytes(b"left by a kill")
-    write_run_h5(path, *content(duration=2.0))
-    write_run_h5(tmp_path / "again.h5", *content(duration=2.0))
+    written(path, *content(duration=2.0))
+    written(tmp_path / "again.h5", *content(duration=2.0))
     assert path.read_bytes() == (tmp_path / "again.h5").read_bytes()
     assert sorted(file.name for file in tmp_path.iterdir()) == ["again.h5", "run.h5"]
 
 
-def test_wrong_shapes_leave_the_old_file(tmp_path):
-    path = tmp_path / "run.h5"
+def test_brought_up_to_date_it_is_the_file_that_is_written_anew(tmp_path):
+    maps, statistics, floes = content(duration=2.0)
+    begin = [replace(load_map, impulse=np.zeros(load_map.impulse.shape), duration_s=0.0) for load_map in maps]
+    none = {name: ContactStatistics(np.zeros(7, np.int64), *np.zeros((3, 7))) for name in statistics}
+    archive = RunArchive(begin, none, floes)
+    archive.write(tmp_path / "run.h5")
+    for _ in range(2):
+        archive.update(maps, statistics)
+        archive.write(tmp_path / "run.h5")
+    archive.close()
+    written(tmp_path / "anew.h5", maps, statistics, floes)
+    assert (tmp_path / "run.h5").read_bytes() == (tmp_path / "anew.h5").read_bytes()
+
+
+def test_wrong_shapes_are_refused(tmp_path):
     maps, statistics, floes = content()
-    write_run_h5(path, maps, statistics, floes)
-    before = path.read_bytes()
     bad_map = LoadMap("pile", "pile", np.zeros((3, 3)), np.zeros(9), np.zeros(6), 1.0, (0, 0))
+    short = {"ice_ice": ContactStatistics(*[np.zeros(6)] * 4)}
     with pytest.raises(ValueError, match="load map of pile"):
-        write_run_h5(path, [bad_map], statistics, floes)
-    short = ContactStatistics(*[np.zeros(6)] * 4)
+        RunArchive([bad_map], statistics, floes)
     with pytest.raises(ValueError, match="ice_ice: one value"):
-        write_run_h5(path, maps, {"ice_ice": short}, floes)
-    assert path.read_bytes() == before
+        RunArchive(maps, short, floes)
+    archive = RunArchive(maps, statistics, floes)
+    with pytest.raises(ValueError, match="load map of pile"):
+        archive.update([bad_map], statistics)
+    with pytest.raises(ValueError, match="ice_ice: one value"):
+        archive.update(maps, short)
 
 
 def test_no_floes_and_no_structures(tmp_path):
     zeros = np.zeros(0)
-    write_run_h5(tmp_path / "run.h5", [], {}, FloeTable(zeros, zeros, zeros, zeros, zeros, zeros, zeros, []))
+    written(tmp_path / "run.h5", [], {}, FloeTable(zeros, zeros, zeros, zeros, zeros, zeros, zeros, []))
     with h5py.File(tmp_path / "run.h5") as file:
         assert file["floes/outline_points"].shape == (0, 2)
         np.testing.assert_array_equal(file["floes/outline_start"], [0])

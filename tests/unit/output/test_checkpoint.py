@@ -2,6 +2,7 @@ import subprocess
 import sys
 from typing import NamedTuple
 
+import h5py
 import numpy as np
 import pytest
 
@@ -120,3 +121,29 @@ def test_faults_are_one_sentence(tmp_path):
 def test_fields_of_another_version_are_named():
     with pytest.raises(CaseError, match="lacks law and has unknown laws: .*another version"):
         checkpoint.restore(Clock, {"time": 0.0, "step": 1, "running": True, "laws": "x"})
+
+
+def test_a_file_of_another_format_is_refused_by_its_number(tmp_path):
+    path = tmp_path / "restart.h5"
+    with h5py.File(path, "w") as file:  # as the first format was
+        file.attrs["format"] = 1
+        file.attrs["meta"] = "{}"
+        file["clock/step"] = np.zeros(1)
+    with pytest.raises(CaseError, match="checkpoint format 1, but this version reads 2"):
+        checkpoint.load(path)
+
+
+def test_meta_may_be_long(tmp_path):
+    snapshots = [[0.1 * n, f"snapshots/ice_{n:06d}.vtu"] for n in range(5000)]
+    checkpoint.save(tmp_path / "restart.h5", {}, {"snapshots": snapshots})
+    assert checkpoint.load(tmp_path / "restart.h5") == ({}, {"snapshots": snapshots})
+
+
+def test_a_large_state_is_written_in_parts(tmp_path, monkeypatch):
+    monkeypatch.setattr(checkpoint, "PART_BYTES", 100)
+    motion, clock = state()
+    checkpoint.save(tmp_path / "restart.h5", {"motion": motion, "clock": clock, "again": motion}, {})
+    groups, _ = checkpoint.load(tmp_path / "restart.h5")
+    for name in ("motion", "again"):
+        for given, found in zip(motion, checkpoint.restore(Motion, groups[name]), strict=True):
+            assert (found.dtype, found.shape, found.tobytes()) == (given.dtype, given.shape, given.tobytes())

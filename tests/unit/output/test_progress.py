@@ -22,7 +22,7 @@ def run(stream, quiet=False, wall_per_update=1.0, updates=25):
     clock = Clock()
     with Progress(100.0, quiet, stream=stream, clock=clock) as progress:
         for i in range(updates + 1):
-            progress.update(float(i), 1000 * i, 12)
+            progress.update(float(i), 1000 * i, lambda: 12)
             clock.now += wall_per_update
         progress.message("checkpoint [written]")
     return stream.getvalue()
@@ -43,9 +43,9 @@ def test_resumed_run_counts_from_where_it_went_on():
     clock = Clock()
     stream = io.StringIO()
     with Progress(100.0, stream=stream, clock=clock) as progress:
-        progress.update(90.0, 900_000, 0)
+        progress.update(90.0, 900_000, lambda: 0)
         clock.now += 10.0
-        progress.update(95.0, 950_000, 0)
+        progress.update(95.0, 950_000, lambda: 0)
     assert stream.getvalue().splitlines()[0] == "95.00 of 100 s, 10 s left, 5,000 steps/s, 0 contacts"
 
 
@@ -53,9 +53,9 @@ def test_end_says_done():
     clock = Clock()
     stream = io.StringIO()
     with Progress(1.0, stream=stream, clock=clock) as progress:
-        progress.update(0.0, 0, 0)
+        progress.update(0.0, 0, lambda: 0)
         clock.now += 2.0
-        progress.update(1.0, 100, 3)
+        progress.update(1.0, 100, lambda: 3)
     assert stream.getvalue() == "1.00 of 1 s, done, 50 steps/s, 3 contacts\n"
 
 

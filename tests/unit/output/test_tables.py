@@ -40,6 +40,15 @@ def test_array_rows(tmp_path):
     assert (tmp_path / "a.csv").read_text().splitlines()[4].split(",")[1] == "3"
 
 
+def test_columns_make_the_same_rows(tmp_path):
+    with Table(tmp_path / "a.csv", FORCES_COLUMNS) as table:
+        table.append_columns([list(column) for column in zip(*FORCE_ROWS, strict=True)])
+        table.append_columns([[]] * len(FORCES_COLUMNS))
+    with Table(tmp_path / "b.csv", FORCES_COLUMNS) as table:
+        table.append(FORCE_ROWS)
+    assert (tmp_path / "a.csv").read_bytes() == (tmp_path / "b.csv").read_bytes()
+
+
 @pytest.mark.parametrize("rows_after_checkpoint", [0, 1, 17])
 @pytest.mark.parametrize("torn", [b"", b"12.3,pi"])
 def test_resumed_table_equals_the_uninterrupted_one(tmp_path, rows_after_checkpoint, torn):
