@@ -9,7 +9,7 @@ import time
 import numpy as np
 from numba import types
 
-from dilatedem.contact.gather import close_tally, load_structures, record_loads, too_deep
+from dilatedem.contact.gather import close_tally, end_window, load_structures, record_loads, too_deep
 from dilatedem.contact.neighbours import awake_pairs, find_pairs
 from dilatedem.jit import device, kernel
 from dilatedem.motion.paces import foresee
@@ -57,7 +57,7 @@ def clock_cost(readings: int = 200_000) -> float:
 
 @kernel
 def timed_advance(
-    team, model, bodies, pairs, spare, cells, workspace, tally, ledger, loads, clock, dt, span, steps, booked, timespec
+    team, model, bodies, pairs, spare, cells, workspace, tally, ledger, loads, windows, clock, dt, span, steps, booked, timespec
 ):
     """As `advance`, and adds up the time of each stage.
 
@@ -89,6 +89,7 @@ def timed_advance(
             t = _lap(booked, FLOAT, timespec, t)
             load_structures(at_structure, dt, model.floating, bodies, pairs, workspace, loads)
             record_loads(loads)
+            end_window(clock.step[0], loads, windows)
             if too_deep(tally, pairs, clock):
                 status = TOO_DEEP
             if status != DONE or surprised(workspace):

@@ -20,7 +20,7 @@ from dilatedem.output.schedule import Schedule
 from dilatedem.state.bodies import Bodies
 from dilatedem.state.clock import Status, clock_at_start
 from dilatedem.state.pairs import PackedPairs, packed, unpacked
-from dilatedem.state.record import empty_ledger, empty_loads
+from dilatedem.state.record import Windows, empty_ledger, empty_loads
 
 #: s between two copies of the state: longer ones cost less time, but the replays that begin at them cost more
 WINDOW = 0.25
@@ -82,18 +82,27 @@ class Watch:
     def __post_init__(self):
         self.windows = Schedule(WINDOW, self.dt, self.span)
 
-    def look(self, state) -> None:
-        """At every end of a window of forces.csv, before it is closed, at every window of this watch, and at the run's end."""
-        step, loads = int(state.clock.step[0]), state.loads
-        highest = loads.window_extreme[:, 4].tolist() if loads.steps[0] > 0 else []
+    def look(self, state, windows: Windows, first: int) -> None:
+        """At every window of this watch, or more often.
+
+        state: at this moment; windows: of forces.csv, of which those from the number `first` on have ended since the last look
+        """
+        step, count = int(state.clock.step[0]), int(windows.count[0])
+        for end, highest in zip(windows.due[first:count].tolist(), windows.extreme[first:count, :, 4].tolist(), strict=True):
+            self._note(highest, end)
+        if self.windows.is_due(step):
+            if state.loads.steps[0] > 0:  # a window is open
+                self._note(state.loads.window_extreme[:, 4].tolist(), step)
+            self.before, self.latest = self.latest, Copy.of(state)
+
+    def _note(self, highest: list[float], step: int) -> None:
+        """The highest load on each structure between the step seen last and this one."""
         if max(highest, default=0.0) > self.peak:
             self.peak, self.until = max(highest), step
             self.structure = highest.index(self.peak)
             early = self.seen < self.latest.step + LEAD / self.dt
             self.worst = self.before if early and self.before else self.latest
         self.seen = step
-        if self.windows.is_due(step):
-            self.before, self.latest = self.latest, Copy.of(state)
 
     def groups(self) -> dict[str, NamedTuple]:
         """The copies as groups of a checkpoint."""

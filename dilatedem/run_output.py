@@ -19,7 +19,7 @@ from dilatedem.output.schedule import Schedule
 from dilatedem.output.summary import versions, write_summary
 from dilatedem.output.tables import BODIES_COLUMNS, ENERGY_COLUMNS, FORCES_COLUMNS, Table
 from dilatedem.output.vtu import SnapshotWriter, pile_column, plane_plate, wrapped, write_pvd, write_structures
-from dilatedem.output.windows import Windows
+from dilatedem.output.windows import end_open_window, schedule_windows, work_up
 from dilatedem.state.record import ANGLE_BINS, HEIGHT_BINS
 
 #: energy terms that are stored (their change counts), and those that came in (+) or went out (-)
@@ -85,7 +85,7 @@ class RunOutput:
         self._tracked = np.arange(count) if output.track == "all" else np.array(output.track, np.int64)
         self._track = Schedule(output.track_interval if len(self._tracked) else 0.0, *pace)
         self._look_ahead(since)
-        self._windows = Windows([structure.name for structure in self._structures], simulation.dt)
+        self._schedule_windows(max(since, 0))
         self._listed, self._refreshed = 0, time.monotonic()
 
     @staticmethod
@@ -105,32 +105,33 @@ class RunOutput:
             table.close()
         self._archive.close()
 
+    def _schedule_windows(self, step: int) -> None:
+        """Windows of forces.csv end after `step` as its interval says; none waits to be written."""
+        self._windows_full, self._looked_at = schedule_windows(self._simulation.windows, self._forces, step), 0
+
     def _look_ahead(self, step: int) -> None:
-        """Find out when the next window of forces.csv ends, and when anything else is due, after `step`."""
+        """Find out when anything but a window of forces.csv is due after `step`."""
         watch = self._simulation.state.watch
         rest = (self._energy, self._track, self._snapshots, self._checkpoints, *([watch.windows] if watch else []))
-        self._window_end = self._forces.next_due(step)
         self._rest_due = min(schedule.next_due(step) for schedule in rest)
 
     @property
     def next_due(self) -> int:
         """The next step at which something is written."""
-        return min(self._window_end, self._rest_due)
+        return min(self._windows_full, self._rest_due)
 
     def observe(self, *, last: bool = False) -> None:
         """Write what is due at the present step (`last`: the run's last, which closes every window)."""
-        state = self._simulation.state
+        state, windows = self._simulation.state, self._simulation.windows
         step = int(state.clock.step[0])
-        closing, rest = last or step == self._window_end, last or step == self._rest_due
-        if state.watch and (closing or state.watch.windows.is_due(step)):
-            state.watch.look(state)  # before the window of forces.csv is closed
-        if closing and state.loads.steps[0] > 0:
-            self._windows.keep(step, state.loads)
-        if closing:
-            self._window_end = self._forces.next_due(step)
-        if rest:
+        if last:
+            end_open_window(windows, state.loads, step)
+        if state.watch:
+            state.watch.look(state, windows, self._looked_at)
+            self._looked_at = int(windows.count[0])
+        if last or step == self._rest_due:
             self._observe_rest(step, last)
-        if self._windows.full or time.monotonic() - self._refreshed >= REFRESH_S:
+        if step == self._windows_full or time.monotonic() - self._refreshed >= REFRESH_S:
             self._refresh()
 
     def _observe_rest(self, step: int, last: bool) -> None:
@@ -195,7 +196,9 @@ class RunOutput:
 
     def _refresh(self, *, durable: bool = False) -> None:
         """Bring the tables and the list of snapshots up to this moment; `durable`: tables are on the disk afterwards."""
-        self._windows.work_up(self._tables[folder.FORCES], self.totals.peaks)
+        simulation, names = self._simulation, [structure.name for structure in self._structures]
+        work_up(simulation.windows, names, simulation.dt, self._tables[folder.FORCES], self.totals.peaks)
+        self._schedule_windows(int(simulation.state.clock.step[0]))
         for table in self._tables.values():
             table.flush(durable=durable)
         if self._listed < len(self.totals.snapshots):

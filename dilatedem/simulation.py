@@ -32,7 +32,7 @@ from dilatedem.state.bodies import Bodies
 from dilatedem.state.clock import Clock, Status, clock_at_start
 from dilatedem.state.model import Model
 from dilatedem.state.pairs import Pairs, empty_pairs, grown, in_use
-from dilatedem.state.record import Ledger, Loads, Tally, empty_ledger, empty_loads, empty_tally
+from dilatedem.state.record import Ledger, Loads, Tally, Windows, empty_ledger, empty_loads, empty_tally, no_windows
 from dilatedem.state.workspace import Cells, Workspace, make_cells, make_workspace
 from dilatedem.steps import free_span, time_step, total_steps
 
@@ -75,9 +75,11 @@ class Simulation:
     cells: Cells = field(init=False)
     workspace: Workspace = field(init=False)
     tally: Tally = field(init=False)
+    windows: Windows = field(init=False)
 
     def __post_init__(self):
         self.cells, self.tally = make_cells(self.model.floating), empty_tally()
+        self.windows = no_windows(len(self.state.loads.step_contacts))
         self._make_room()
 
     @classmethod
@@ -114,7 +116,7 @@ class Simulation:
         """Loads at t = 0, before the first step: a step of no length, not counted."""
         status = self.advance(1, dt=0.0)
         self.state.clock.step[0] = 0
-        self.state.loads.steps[0] = 0
+        self.state.loads.steps[0] = self.windows.count[0] = 0
         return status
 
     def advance(self, steps: int, *, dt: float | None = None) -> Status:
@@ -163,7 +165,7 @@ class Simulation:
         state = self.state
         return (
             team, self.model, state.bodies, state.pairs, self.spare, self.cells, self.workspace, self.tally, state.ledger,
-            state.loads, state.clock,
+            state.loads, self.windows, state.clock,
         )  # fmt: skip
 
     def _make_room(self) -> None:

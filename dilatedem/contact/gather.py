@@ -172,3 +172,20 @@ def record_loads(loads):
         extreme[s, 2] = fy if first else min(extreme[s, 2], fy)
         extreme[s, 3] = fy if first else max(extreme[s, 3], fy)
         extreme[s, 4] = fh if first else max(extreme[s, 4], fh)
+
+
+@device
+def end_window(step, loads, windows):
+    """Put the open window down if it is due to end at this step; then the next one is open."""
+    w = windows.count[0]
+    if windows.due[w] != step:
+        return
+    windows.steps[w] = loads.steps[0]
+    for s in range(len(loads.step_contacts)):
+        windows.contacts[w, s] = loads.contact_sum[s]
+        for m in range(6):
+            windows.sum[w, s, m] = loads.window_sum[s, m]
+        for m in range(5):
+            windows.extreme[w, s, m] = loads.window_extreme[s, m]
+    windows.count[0] += 1
+    loads.steps[0] = 0

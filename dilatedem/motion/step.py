@@ -1,6 +1,6 @@
 """The time step: the whole method on one page."""
 
-from dilatedem.contact.gather import close_tally, load_structures, record_loads, too_deep
+from dilatedem.contact.gather import close_tally, end_window, load_structures, record_loads, too_deep
 from dilatedem.contact.neighbours import awake_pairs, find_pairs
 from dilatedem.jit import kernel
 from dilatedem.motion.paces import foresee
@@ -11,7 +11,7 @@ DONE, PAIRS_FULL, TOO_FAST, TOO_DEEP = int(Status.DONE), int(Status.PAIRS_FULL),
 
 
 @kernel
-def advance(team, model, bodies, pairs, spare, cells, workspace, tally, ledger, loads, clock, dt, span, steps):
+def advance(team, model, bodies, pairs, spare, cells, workspace, tally, ledger, loads, windows, clock, dt, span, steps):
     """Advance all bodies by up to `steps` steps of dt [s]; returns a `Status`, its culprit in `clock`.
 
     team: `jit.Alone` or `jit.Team`. The method of Liu, Long & Ji (2015): move, meet, float. Bodies hold positions, velocities and
@@ -37,6 +37,7 @@ def advance(team, model, bodies, pairs, spare, cells, workspace, tally, ledger, 
             load_and_kick(team, workspace.busy, busy, awake, dt, model, bodies, pairs, workspace)
             load_structures(at_structure, dt, model.floating, bodies, pairs, workspace, loads)
             record_loads(loads)
+            end_window(clock.step[0], loads, windows)
             if too_deep(tally, pairs, clock):
                 status = TOO_DEEP
             if status != DONE or surprised(workspace):

@@ -3,7 +3,10 @@
 import math
 from dataclasses import dataclass, field
 
-NEVER = 2**62  # a step number no run reaches: safe in min() beside real ones
+import numpy as np
+
+from dilatedem.state.clock import NEVER
+
 ROUND_OFF = 1e-9  # relative; an event this close after a step belongs to that step, not to the next one
 
 
@@ -63,6 +66,14 @@ class Schedule:
         """Number and due step of the first event after `step`."""
         event = self.events_until(step)
         return event, self.due_step(event)
+
+    def due_after(self, step: int, count: int) -> np.ndarray:
+        """Due steps after `step`, in order: up to `count` (fewer where several events are due at one step)."""
+        if self.interval_s == 0.0:
+            return np.zeros(0, np.int64)
+        steps = (self._next_event(step)[0] + np.arange(count)) * self.interval_s / self.dt
+        first = np.ceil(steps - ROUND_OFF * np.maximum(1.0, steps)).astype(np.int64)
+        return np.unique(-(-first // self.span) * self.span)
 
     def is_due(self, step: int) -> bool:
         """Whether an event is due at `step`."""

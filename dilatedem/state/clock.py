@@ -5,6 +5,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+NEVER = 2**62  # a step number no run reaches: safe in min() beside real ones
+
 
 class Status(IntEnum):
     """Why `advance` came back."""

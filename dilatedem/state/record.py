@@ -4,10 +4,13 @@ from typing import NamedTuple
 
 import numpy as np
 
+from dilatedem.state.clock import NEVER
 from dilatedem.state.modes import MODE_COUNT
 
 ANGLE_BINS = 72  # of a load map: 5 degrees each
 HEIGHT_BINS = 20
+#: windows of loads that wait to be written, at most
+WINDOWS = 1000
 #: parts of a `Tally`, and the most threads that can share the evaluation of pairs
 PARTS = 32
 
@@ -55,6 +58,20 @@ class Loads(NamedTuple):
     mode_overlap: np.ndarray  # (2, MODE_COUNT) m, largest overlap
 
 
+class Windows(NamedTuple):
+    """Windows of the loads that have ended and wait to be written, and when the next ones end.
+
+    So that a run need not come back from the kernels at each of them.
+    """
+
+    count: np.ndarray  # (1,) windows that wait
+    due: np.ndarray  # (WINDOWS + 1,) step at which each of them ended, then those at which the next will
+    steps: np.ndarray  # (WINDOWS,) steps in it
+    sum: np.ndarray  # (WINDOWS, s, 6) and so on as in `Loads`
+    extreme: np.ndarray  # (WINDOWS, s, 5)
+    contacts: np.ndarray  # (WINDOWS, s)
+
+
 def empty_ledger() -> Ledger:
     return Ledger(*(np.zeros(1) for _ in Ledger._fields))
 
@@ -73,4 +90,12 @@ def empty_loads(map_origin: np.ndarray, map_span: np.ndarray) -> Loads:
     return Loads(
         np.zeros(1, np.int64), np.zeros((s, 6)), np.zeros((s, 5)), np.zeros(s, np.int64), np.zeros((s, 6)), np.zeros(s, np.int64),
         np.zeros((s, ANGLE_BINS, HEIGHT_BINS)), map_origin, map_span, *per_mode,
+    )  # fmt: skip
+
+
+def no_windows(structures: int) -> Windows:
+    """None has ended, and none will."""
+    return Windows(
+        np.zeros(1, np.int64), np.full(WINDOWS + 1, NEVER), np.zeros(WINDOWS, np.int64), np.zeros((WINDOWS, structures, 6)),
+        np.zeros((WINDOWS, structures, 5)), np.zeros((WINDOWS, structures), np.int64),
     )  # fmt: skip

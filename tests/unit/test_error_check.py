@@ -14,12 +14,13 @@ from dilatedem.case.load import load
 from dilatedem.case.schema import Case
 from dilatedem.error_check import LEAD, TAIL, WINDOW, Watch, check
 from dilatedem.output import checkpoint
+from dilatedem.output.windows import end_open_window
 from dilatedem.post import info, post
 from dilatedem.simulation import Simulation
 from dilatedem.state.bodies import bodies_at_rest
 from dilatedem.state.clock import Status, clock_at_start
 from dilatedem.state.pairs import empty_pairs, in_use, packed, unpacked
-from dilatedem.state.record import empty_loads
+from dilatedem.state.record import empty_loads, no_windows
 
 CASES = Path(__file__).parents[1] / "cases"
 PILE = {"kind": "pile", "center": [0.0, 0.0]}
@@ -133,11 +134,12 @@ def played(case: Case) -> Simulation:
     run = Simulation.of_case(case)
     assert run.evaluate() == Status.DONE
     watch, every = run.state.watch, round(0.01 / run.dt)
-    watch.look(run.state)
+    watch.look(run.state, run.windows, 0)
     while run.time_s < case.time.duration - 1e-9:
         assert run.advance(every) == Status.DONE
-        watch.look(run.state)
-        run.state.loads.steps[0] = 0
+        end_open_window(run.windows, run.state.loads, int(run.state.clock.step[0]))
+        watch.look(run.state, run.windows, 0)
+        run.windows.count[0] = 0
     return run
 
 
@@ -176,12 +178,15 @@ def test_a_copy_of_the_pairs_holds_all_of_them():
 def watched(peaks: dict[float, float], *, end: float, dt: float = 1e-3) -> Watch:
     """A watch that looked every 0.01 s and found these loads (time [s] -> N) on the second of two structures."""
     watch, loads = Watch(dt), empty_loads(np.zeros((2, 6)), np.zeros((2, 3)))
+    windows = no_windows(2)
     state = SimpleNamespace(clock=clock_at_start(), loads=loads, bodies=bodies_at_rest(1), pairs=empty_pairs(3))
     for look in range(round(end / 0.01) + 1):
         state.clock.step[0] = round(look * 0.01 / dt)
         loads.steps[0] = min(look, 1)
         loads.window_extreme[1, 4] = peaks.get(round(look * 0.01, 2), 1.0)
-        watch.look(state)
+        end_open_window(windows, loads, int(state.clock.step[0]))
+        watch.look(state, windows, 0)
+        windows.count[0] = 0
     return watch
 
 

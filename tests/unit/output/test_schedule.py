@@ -2,7 +2,8 @@ import math
 
 import pytest
 
-from dilatedem.output.schedule import NEVER, Schedule
+from dilatedem.output.schedule import Schedule
+from dilatedem.state.clock import NEVER
 
 
 def due_steps(schedule, last):
@@ -41,9 +42,21 @@ def test_long_run_stays_on_time():
     assert schedule.events_until(10_000_000) == 10_001
 
 
+@pytest.mark.parametrize(("interval", "dt", "span"), [(0.0137, 0.0021, 1), (0.01, 1.2987e-4, 7), (1e-3, 4e-4, 16), (0.3, 0.1, 1)])
+@pytest.mark.parametrize("since", [-1, 0, 41, 1000])
+def test_due_steps_come_in_one_go_as_one_by_one(interval, dt, span, since):
+    schedule, one_by_one, step = Schedule(interval, dt, span), [], since
+    together = schedule.due_after(since, 300)
+    assert len(together) == 300 or (interval < span * dt and len(together) > 10)
+    for _ in together:
+        step = schedule.next_due(step)
+        one_by_one.append(step)
+    assert together.tolist() == one_by_one
+
+
 def test_interval_zero_is_never():
     schedule = Schedule(0.0, 0.1)
-    assert schedule.next_due(-1) == NEVER
+    assert schedule.next_due(-1) == NEVER and len(schedule.due_after(-1, 5)) == 0
     assert not schedule.is_due(0)
     assert schedule.events_until(10**9) == 0
 

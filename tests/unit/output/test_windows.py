@@ -5,8 +5,8 @@ import numpy as np
 import pytest
 
 from dilatedem.output.tables import FORCES_COLUMNS, Table
-from dilatedem.output.windows import ROOM, Windows
-from dilatedem.state.record import empty_loads
+from dilatedem.output.windows import end_open_window, work_up
+from dilatedem.state.record import WINDOWS, empty_loads, no_windows
 
 DT = 1e-3  # s
 STEPS = 10  # of a window
@@ -15,26 +15,26 @@ STEPS = 10  # of a window
 def kept(names: list[str], count: int, path: Path, every: int) -> dict[str, dict]:
     """`count` windows of made-up loads in forces.csv, worked up after every so many; returns the headline loads."""
     random, peaks = np.random.default_rng(4), {}
-    windows, loads = Windows(names, DT), empty_loads(np.zeros((len(names), 6)), np.zeros((len(names), 3)))
+    windows, loads = no_windows(len(names)), empty_loads(np.zeros((len(names), 6)), np.zeros((len(names), 3)))
     with Table(path, FORCES_COLUMNS) as table:
         for number in range(1, count + 1):
             loads.steps[0] = STEPS
             loads.window_sum[:] = 1e4 * random.normal(size=loads.window_sum.shape)
             loads.window_extreme[:] = 1e3 * random.normal(size=loads.window_extreme.shape) * (number % 3 > 0)
             loads.contact_sum[:] = random.integers(0, 40, len(names))
-            windows.keep(STEPS * number, loads)
+            end_open_window(windows, loads, STEPS * number)
             assert loads.steps[0] == 0  # the next window is open
-            if number % every == 0 or windows.full:
-                windows.work_up(table, peaks)
-        windows.work_up(table, peaks)
-        windows.work_up(table, peaks)  # nothing is left
+            if number % every == 0 or windows.count[0] == WINDOWS:
+                work_up(windows, names, DT, table, peaks)
+        work_up(windows, names, DT, table, peaks)
+        work_up(windows, names, DT, table, peaks)  # nothing is left
     return peaks
 
 
 @pytest.mark.parametrize("names", [["pile"], ["pile", 'leg "B", north', "wall_x_min"], []])
 @pytest.mark.parametrize("every", [7, 10**6])
 def test_many_windows_at_once_come_out_as_one_by_one(names, every, tmp_path):
-    count = ROOM + 5
+    count = WINDOWS + 5
     one_by_one = kept(names, count, tmp_path / "one.csv", 1)
     assert kept(names, count, tmp_path / "many.csv", every) == one_by_one
     assert (tmp_path / "many.csv").read_bytes() == (tmp_path / "one.csv").read_bytes()
@@ -52,12 +52,12 @@ def test_many_windows_at_once_come_out_as_one_by_one(names, every, tmp_path):
 
 
 def test_means_are_over_the_steps_of_each_window(tmp_path):
-    windows, loads, peaks = Windows(["pile"], DT), empty_loads(np.zeros((1, 6)), np.zeros((1, 3))), {}
+    windows, loads, peaks = no_windows(1), empty_loads(np.zeros((1, 6)), np.zeros((1, 3))), {}
     with Table(tmp_path / "forces.csv", FORCES_COLUMNS) as table:
         for steps, end in ((4, 4), (2, 6)):  # the last window of a run may be shorter
             loads.steps[0], loads.window_sum[:], loads.contact_sum[:] = steps, 8.0, 6
-            windows.keep(end, loads)
-        windows.work_up(table, peaks)
+            end_open_window(windows, loads, end)
+        work_up(windows, ["pile"], DT, table, peaks)
     rows = list(csv.DictReader((tmp_path / "forces.csv").open()))
     assert [(row["time_s"], row["fx_N"], row["mz_Nm"], row["contacts"]) for row in rows] == [
         ("0.004", "2", "2", "1.5"), ("0.006", "4", "4", "3"),
