@@ -126,7 +126,7 @@ def _runs_past(scratch, which, count, normal, p, d, square):
     return False
 
 
-@item
+@device
 def _press_rims(own, scratch, count, radius, their, other, normal, overlap, longest, modulus, sums):
     """Add the edges and vertices of cap `own` (0: of a, 1: of b) that press on the other cap to the sums of `_join`; returns those
     with the mode and size of the leading feature.

@@ -18,7 +18,8 @@ def bound_rim(bounds, eu, ev, before, fu, fv, d, e):
     (eu, ev) that comes before, of the squared length `before`; returns those with its own squared length."""
     longest, strongest, deepest, sharp = bounds
     square, area, mean = fu * fu + fv * fv, eu * fv - ev * fu, d * d + d * e + e * e
-    sharp = sharp or area * area < SLENDER * SLENDER * before * square
+    # two corners in one place have no angle: <= takes them for sharp
+    sharp = sharp or area * area <= SLENDER * SLENDER * before * square
     return (max(longest, square), max(strongest, square * mean * mean), max(deepest, e), sharp), square
 
 
