@@ -6,15 +6,17 @@ import numpy as np
 
 from dilatedem.contact.closest import closest_points
 from dilatedem.contact.collide import separation
-from dilatedem.contact.consistent.cap import CORNERS, facing, lay_sides, nearest, overhang
-from dilatedem.contact.consistent.face import any_rim, press_face, strongest_rim
+from dilatedem.contact.consistent.cap import CORNERS, corner_of, facing, lay_sides, nearest, overhang
+from dilatedem.contact.consistent.face import press_face
+from dilatedem.contact.consistent.four import press_four
 from dilatedem.contact.consistent.join import pose_energy
 from dilatedem.contact.consistent.line import line_energy, press_edge
 from dilatedem.contact.consistent.point import elliptic, press_vertex
+from dilatedem.contact.consistent.rim import strongest_rim
 from dilatedem.contact.friction import carried_over, rescaled, slide, viscous_share
 from dilatedem.contact.patch import contact_patch
 from dilatedem.contact.turning import turn_shape
-from dilatedem.jit import kernel
+from dilatedem.jit import device, kernel
 from dilatedem.numerics.vector import store
 from dilatedem.state.workspace import MOST_CORNERS
 from dilatedem.water.floating import submerged_polyhedron, submerged_prism
@@ -115,15 +117,30 @@ def edge_on_cap(p, e, length, radius, scratch, count, normal, other, modulus, sh
 @kernel
 def face_on_cap(scratch, count_a, normal_a, count_b, normal_b, reach, overlap, modulus):
     """`press_face`: energy, force, moment, area, spread; `strongest_rim` and `any_rim` of its patch."""
-    energy, force, moment, area, spread, (count, now, tilt) = press_face(
-        scratch, count_a, normal_a, count_b, normal_b, reach, modulus
+    energy, force, moment, area, spread, (count, now, tilt, second, longest) = press_face(
+        scratch, count_a, normal_a, count_b, normal_b, reach, overlap, modulus
     )
-    rims = any_rims = 0.0, 0.0
+    rims = 0.0, 0.0
     if energy > 0.0:
         beyond = sqrt(2.0 * reach * overlap)
         rims = strongest_rim(scratch[now], count, beyond, tilt * beyond, overlap)
-        any_rims = any_rim(scratch[now], count, beyond, tilt, overlap)
-    return energy, force, moment, area, spread, rims, any_rims
+    return energy, force, moment, area, spread, rims, (second, longest)
+
+
+@device
+def _four_corners(scratch, which):
+    return corner_of(scratch, which, 0), corner_of(scratch, which, 1), corner_of(scratch, which, 2), corner_of(scratch, which, 3)
+
+
+@kernel
+def four_on_four(scratch, normal_a, normal_b, reach, overlap, modulus):
+    """`press_four` of both caps: whether it can tell, energy, force, moment, area, spread, patch; `strongest_rim` of the patch."""
+    found = press_four(
+        _four_corners(scratch, 0), normal_a, _four_corners(scratch, 1), normal_b, (0.0, 0.0, 0.0), reach, overlap, modulus, scratch
+    )
+    beyond, (count, now, tilt, _, _) = sqrt(2.0 * reach * overlap), found[6]
+    rims = strongest_rim(scratch[now], count, beyond, tilt * beyond, overlap) if found[0] else (0.0, 0.0)
+    return found, rims
 
 
 @kernel

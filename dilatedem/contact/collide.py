@@ -59,9 +59,16 @@ def _end_contact(pairs, k, dt):
         pairs.couple[k, i] = 0.0
 
 
+# both return what `press_liu2015` does, and how b moves against a: its velocity at the point of contact, its turning
+
+
 @item
 def _press_liu2015(contact, k, dt, shapes, vertex, face_normal, solids, bodies, pairs, offset, normal, pa, pb, gap, scratch):
-    return press_liu2015(k, dt, shapes, vertex, face_normal, solids, bodies, pairs, contact, offset, normal, pa, pb, gap, scratch)
+    at_rest = (0.0, 0.0, 0.0)  # nothing asks for it where there is no dashpot beside the spring
+    return (
+        press_liu2015(k, dt, shapes, vertex, face_normal, solids, bodies, pairs, contact, offset, normal, pa, pb, gap, scratch),
+        at_rest, at_rest,
+    )  # fmt: skip
 
 
 @item
@@ -93,7 +100,9 @@ def collide(k, dt, shapes, vertex, face_normal, solids, bodies, pairs, contact, 
         if pairs.overlap[k] > 0.0:
             _end_contact(pairs, k, dt)
         return
-    pressed = _press(contact, k, dt, shapes, vertex, face_normal, solids, bodies, pairs, offset, normal, pa, pb, gap, scratch)
+    pressed, sliding, turning = _press(
+        contact, k, dt, shapes, vertex, face_normal, solids, bodies, pairs, offset, normal, pa, pb, gap, scratch
+    )
     mode, size, overlap, point, direction, normal_force, elastic_power, damping_power, shear_stiffness, dashpot = pressed[:10]
     stored, gain = pressed[10], pressed[11]
     arm = sub(point, offset)
@@ -104,8 +113,8 @@ def collide(k, dt, shapes, vertex, face_normal, solids, bodies, pairs, contact, 
     slid = along(slid, -dot(slid, direction), direction)
     grip, turned = pairs.grip[k], 0.0
     if grip > 0.0:
-        turning = sub(load(bodies.middle_angular_velocity, b), load(bodies.middle_angular_velocity, a))
-        turned = grip * dot(turning, direction)
+        spun = sub(load(bodies.middle_angular_velocity, b), load(bodies.middle_angular_velocity, a))
+        turned = grip * dot(spun, direction)
     old_stiffness, opened = pairs.shear_stiffness[k], pairs.overlap[k] == 0.0
     shrink, stretch = 1.0, dt
     if contact.model == CONSISTENT and not opened:
@@ -119,9 +128,7 @@ def collide(k, dt, shapes, vertex, face_normal, solids, bodies, pairs, contact, 
     torsion = shear_stiffness * wrung
     if dashpot > 0.0:
         dashpot *= sqrt(contact.stiffness_ratio)
-        sliding = relative_velocity(bodies.velocity, bodies.angular_velocity, a, b, point, arm)
         sliding = along(sliding, -dot(sliding, direction), direction)
-        turning = sub(load(bodies.angular_velocity, b), load(bodies.angular_velocity, a))
         turned_now = grip * dot(turning, direction)
         share = viscous_share(slip, wrung, sliding, turned_now, shear_stiffness, dashpot, contact.friction * normal_force)
         force = along(force, -share * dashpot, sliding)

@@ -7,20 +7,20 @@ the largest where two are equal and equal to it where one leads; a feature of le
 from math import log, pi, sqrt
 
 from dilatedem.contact.consistent.cap import CORNERS, UNBOUNDED, corner_of, facing, lay_out, lay_sides, nearest, side_of
-from dilatedem.contact.consistent.face import any_rim, press_face, strongest_rim
+from dilatedem.contact.consistent.face import press_face
+from dilatedem.contact.consistent.four import corners_of, has_four, press_four
 from dilatedem.contact.consistent.line import BASE, BEND, LEVEL, line_compliance, press_edge
 from dilatedem.contact.consistent.point import press_vertex
+from dilatedem.contact.consistent.rim import FAR, strongest_rim
 from dilatedem.contact.support import PARALLEL
 from dilatedem.jit import device, item
-from dilatedem.numerics.vector import along, cross, dot, load, scale, sub
+from dilatedem.numerics.vector import along, cross, dot, load, scale, store, sub
 from dilatedem.state.modes import Mode
 
 #: exponent of the norm
 SHARP = 16.0
 SHARE = log(2.0) / SHARP
 HERTZ = 8.0 / 15.0
-#: m3 and m: no bound on what edges press, and none of its powers overflows
-FAR = 1e100
 #: share of the largest energy below which a feature is left out: its force would be 0.5^15 = 3e-5 of its own
 NEGLECTED = 0.5
 
@@ -94,12 +94,11 @@ def _rims_count(scratch, patch, reach, overlap, bluntest, modulus, least):
 
     patch: as `press_face` returns it; bluntest: the larger radius.
     """
-    count, now, tilt = patch
-    beyond = sqrt(2.0 * reach * overlap)
+    count, now, tilt, second, longest = patch
     pointed = _point_bound(modulus, overlap, bluntest) >= least
-    second, longest = any_rim(scratch[now], count, beyond, tilt, overlap)
     if not pointed and _surely_below(modulus, second, longest, overlap, bluntest, least):
         return False, longest
+    beyond = sqrt(2.0 * reach * overlap)
     second, longest = strongest_rim(scratch[now], count, beyond, tilt * beyond, overlap)
     return pointed or _line_bound(modulus, second, longest, overlap, 1.0 / bluntest) >= least, longest
 
@@ -115,7 +114,19 @@ def _edges(scratch, which, count, normal, p, e, force, moment):
     return EDGE_CROSSING if 1.0 - c * c > PARALLEL * PARALLEL else EDGE_PARALLEL
 
 
-@item
+@device
+def _runs_past(scratch, which, count, normal, p, d, square):
+    """Whether an edge from p to p + d lies farther out beyond a side of cap `which` than the root of `square` [m2]."""
+    for k in range(count):
+        out = cross(side_of(scratch, which, k), normal)
+        u = dot(sub(p, corner_of(scratch, which, k)), out)
+        least = min(u, u + dot(d, out))
+        if least > 0.0 and least * least > square:
+            return True
+    return False
+
+
+@device
 def _press_rims(own, scratch, count, radius, their, other, normal, overlap, longest, modulus, sums):
     """Add the edges and vertices of cap `own` (0: of a, 1: of b) that press on the other cap to the sums of `_join`; returns those
     with the mode and size of the leading feature.
@@ -142,12 +153,15 @@ def _press_rims(own, scratch, count, radius, their, other, normal, overlap, long
                 shallow, pressed = 0.0, length * deepest / abs(u - v)
             # the overlap with the plane falls from the one to the other
             second = pressed * (deepest * deepest + deepest * shallow + shallow * shallow) / 3.0
+            above = max(reach - deepest, 0.0)
             pressed, deepest = min(pressed, longest), min(deepest, overlap)
             second = min(second, pressed * deepest * deepest)
             least = NEGLECTED * largest
             if _surely_below(modulus, second, pressed, deepest, radius, least):
                 continue
             if _line_bound(modulus, second, pressed, deepest, 1.0 / radius) < least:
+                continue
+            if their != UNBOUNDED and _runs_past(scratch, which, their, normal, p, d, reach * reach - above * above):
                 continue
         energy, more, turn, line, across = press_edge(p, e, length, radius, scratch, which, their, normal, other, modulus, SHARP)
         if energy > NEGLECTED * largest:
@@ -173,6 +187,16 @@ def _press_rims(own, scratch, count, radius, their, other, normal, overlap, long
     return largest, total, force, moment, mode, size, spread
 
 
+@device
+def _lay_out(vertex, shapes, a, b, fa, fb, offset, pb, half_space, scratch):
+    """Write the corners of both caps into `scratch`; returns their numbers."""
+    na = lay_out(vertex, shapes, a, fa, NONE, scratch, 0)
+    if not half_space:
+        return na, lay_out(vertex, shapes, b, fb, offset, scratch, 1)
+    store(scratch[CORNERS + 1], 0, pb)
+    return na, UNBOUNDED
+
+
 @item
 def pose_energy(
     vertex, face_normal, shapes, a, b, corners, corner_a, corner_b, offset, normal, pb, overlap, modulus, scratch
@@ -187,30 +211,36 @@ def pose_energy(
     """
     ra, rb = shapes.radius[a], shapes.radius[b]
     half_space = shapes.kind[b] != 0
-    fa = facing(vertex, face_normal, shapes, a, corners, corner_a, normal)
-    na = lay_out(vertex, shapes, a, fa, NONE, scratch, 0)
     normal_a, normal_b = normal, scale(-1.0, normal)
+    fa, fb = facing(vertex, face_normal, shapes, a, corners, corner_a, normal_a), -1
     if fa >= 0:
         normal_a = load(face_normal, fa)
-    fb, nb = -1, UNBOUNDED
     if half_space:
         rb = 0.0
-        for m in range(3):
-            scratch[CORNERS + 1, 0, m] = pb[m]
     else:
         fb = facing(vertex, face_normal, shapes, b, corners, corner_b, normal_b)
-        nb = lay_out(vertex, shapes, b, fb, offset, scratch, 1)
         if fb >= 0:
             normal_b = load(face_normal, fb)
     reach = ra + rb
     sums = 0.0, 0.0, NONE, NONE, VERTEX_FACE, 1.0, (NONE, NONE)
-    longest, bluntest, needed = FAR, max(ra, rb), True
-    if fa >= 0 and (fb >= 0 or half_space):
-        energy, more, turn, area, spread, patch = press_face(scratch, na, normal_a, nb, normal_b, reach, modulus)
-        if energy > 0.0:
-            sums = energy, 1.0, scale(-1.0, more), scale(-1.0, turn), FACE_FACE, area, spread
-            needed, longest = _rims_count(scratch, patch, reach, overlap, bluntest, modulus, NEGLECTED * energy)
+    longest, bluntest, needed, told, energy = FAR, max(ra, rb), True, False, 0.0
+    more, turn, area, spread, patch = NONE, NONE, 0.0, (NONE, NONE), (0, 0, 0.0, FAR, FAR)
+    if fa >= 0 and fb >= 0 and has_four(shapes, fa) and has_four(shapes, fb):
+        told, energy, more, turn, area, spread, patch = press_four(
+            corners_of(vertex, shapes, fa), normal_a, corners_of(vertex, shapes, fb), normal_b, offset, reach, overlap, modulus,
+            scratch,
+        )  # fmt: skip
+    na, nb = 0, UNBOUNDED
+    if not told:
+        na, nb = _lay_out(vertex, shapes, a, b, fa, fb, offset, pb, half_space, scratch)
+        if fa >= 0 and (fb >= 0 or half_space):
+            energy, more, turn, area, spread, patch = press_face(scratch, na, normal_a, nb, normal_b, reach, overlap, modulus)
+    if energy > 0.0:
+        sums = energy, 1.0, scale(-1.0, more), scale(-1.0, turn), FACE_FACE, area, spread
+        needed, longest = _rims_count(scratch, patch, reach, overlap, bluntest, modulus, NEGLECTED * energy)
     if needed:
+        if told:
+            na, nb = _lay_out(vertex, shapes, a, b, fa, fb, offset, pb, half_space, scratch)
         lay_sides(scratch, 0, na)
         lay_sides(scratch, 1, nb)
         sums = _press_rims(0, scratch, na, ra, nb, rb, normal_b, overlap, longest, modulus, sums)

@@ -27,19 +27,16 @@ def pressure_centre(force, unit, moment, through):
 @item
 def _rocking_couple(dashpot, force, spread, normal, turning):
     """Couple on b [N m] of a dashpot [N s/m] spread over the patch, against the relative angular velocity `turning` [rad/s]."""
-    couple, most = (0.0, 0.0, 0.0), 0.0
-    for i in range(2):
-        s = spread[0] if i == 0 else spread[1]
-        arm = cross(s, normal)
-        couple = along(couple, -dashpot * dot(arm, turning), arm)
-        most += dot(arm, arm)
-    square, most = dot(couple, couple), force * force * most
+    one, two = cross(spread[0], normal), cross(spread[1], normal)
+    couple = along(scale(-dashpot * dot(one, turning), one), -dashpot * dot(two, turning), two)
+    square, most = dot(couple, couple), force * force * (dot(one, one) + dot(two, two))
     return scale(sqrt(most / square), couple) if square > most else couple
 
 
 @item
 def press_consistent(k, shapes, vertex, face_normal, solids, bodies, pairs, contact, offset, normal, pa, pb, gap, scratch):
-    """The normal part of contact k; arguments and results as of `liu2015.press_liu2015`. Writes the pair's couple and its grip.
+    """The normal part of contact k; arguments and results as of `liu2015.press_liu2015`, and the velocity of b against a at the
+    point of contact and its turning against a [m/s, rad/s]. Writes the pair's couple and its grip.
 
     Damping multiplies the elastic wrench by 1 + c (dW/dt)/F^2, never below 0, with c = xi sqrt(2 m*/W) F [N s/m]. For any law
     F = K overlap^p that is c sqrt(m* K) overlap^((p-1)/2) times the approach speed with the constant sqrt(2 (p+1)) xi:
@@ -63,7 +60,7 @@ def press_consistent(k, shapes, vertex, face_normal, solids, bodies, pairs, cont
     if not (energy > 0.0 and elastic > 0.0):
         store(pairs.couple, k, none)
         pairs.grip[k] = 0.0
-        return mode, size, -gap, middle, normal, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+        return (mode, size, -gap, middle, normal, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0), none, none
     unit = 1.0 / square
     direction = scale(unit * elastic, force)  # the division need not wait for the root
     point, couple = pressure_centre(force, unit, moment, middle)
@@ -85,6 +82,7 @@ def press_consistent(k, shapes, vertex, face_normal, solids, bodies, pairs, cont
     stiffness = square / energy
     pairs.tangent[k] = TANGENT * stiffness
     shear_stiffness = 0.5 * contact.stiffness_ratio * stiffness
-    return (
+    pressed = (
         mode, size, -gap, point, direction, share * elastic, elastic_power, damping_power, shear_stiffness, dashpot, energy, 0.0,
     )  # fmt: skip
+    return pressed, velocity, turning

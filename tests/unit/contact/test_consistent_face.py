@@ -7,7 +7,7 @@ from shapely import Polygon
 
 from dilatedem.contact.consistent.face import BETA, MARGIN
 from dilatedem.state.modes import Mode
-from tests.kernels import face_on_cap, workspace_of
+from tests.kernels import face_on_cap, four_on_four, workspace_of
 from tests.pair_in_place import PairInPlace
 from tests.reference.cores import box, polygon
 
@@ -167,6 +167,41 @@ def test_force_and_moment_are_minus_the_gradient():
     assert len(worst) > 50
     assert np.median(worst) < 1e-5
     assert max(worst) < 2e-3
+
+
+def test_four_corners_on_four_are_the_same_without_loops():
+    # rectangles and other quadrilaterals, level and tilted, across each other and cut by one, two and more borders; what the short
+    # way cannot tell it leaves
+    rng, told, cut, left = np.random.default_rng(14), 0, 0, 0
+    for i in range(600):
+        caps = [rectangle(*rng.uniform(0.3, 2.0, 2)) if i % 4 else polygon(4, 1.5, int(rng.integers(1 << 30))) for _ in range(2)]
+        upper = caps[0] @ Rotation.from_euler("z", rng.choice([0.0, 1e-3, 1.0]) * rng.normal()).as_matrix()[:2, :2].T
+        upper = upper + rng.normal(size=2) * rng.choice([0.0, 0.3])
+        tilt = np.append(rng.normal(size=2), 0.0) * 10.0 ** rng.uniform(-7.0, -1.5)
+        up, low = (np.column_stack((cap, np.zeros(4))) for cap in (upper, caps[1]))
+        up = Rotation.from_rotvec(tilt).apply(up)
+        overlap, turn = 10.0 ** rng.uniform(-4.0, -2.3), Rotation.random(rng=rng)
+        up = up + [0.0, 0.0, REACH - up[:, 2].min() - overlap]
+        normals = tuple(turn.apply(Rotation.from_rotvec(tilt).apply(-UP))), tuple(turn.apply(UP))
+        scratch = workspace_of(turn.apply(low), turn.apply(up[::-1]))
+        short, rims = four_on_four(scratch, *normals, REACH, overlap, 1.0)
+        energy, force, moment, area, spread, slow_rims, bounds = face_on_cap(
+            scratch, 4, normals[0], 4, normals[1], REACH, overlap, 1.0
+        )
+        if not short[0]:
+            left += 1
+            continue
+        told += 1
+        size = np.linalg.norm(force)
+        cut += abs(np.dot(force, normals[1])) < size * (1.0 - 1e-12)
+        assert short[1] == pytest.approx(energy, rel=1e-10)
+        assert np.array(short[2]) == pytest.approx(np.array(force), abs=1e-10 * size)
+        assert np.array(short[3]) == pytest.approx(np.array(moment), abs=1e-10 * size)
+        assert (short[4], rims) == (pytest.approx(area, rel=1e-10), pytest.approx(slow_rims, rel=1e-7))
+        assert short[6][3:] == pytest.approx(bounds, rel=1e-7)
+        # two vectors whose squares are the moments do not depend on the corner that comes first
+        assert np.array(short[5]) == pytest.approx(np.array(spread), abs=1e-8)
+    assert told > 200 and cut > 100 and left > 50
 
 
 def test_faces_that_lean_do_not_press():
