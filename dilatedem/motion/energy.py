@@ -5,7 +5,7 @@ from dilatedem.jit import kernel
 from dilatedem.motion.integrate import kinetic_energy
 from dilatedem.numerics.rotation import rotation_matrix
 from dilatedem.numerics.vector import load
-from dilatedem.water.floating import submerge_tilted
+from dilatedem.water.floating import submerge
 
 
 @kernel
@@ -16,7 +16,11 @@ def instant_energies(floating, hulls, solids, surroundings, bodies, pairs, works
     is the buoyancy force and moment of any convex body.
     """
     kinetic = weight = buoyancy = elastic = 0.0
-    q, wet = bodies.orientation, workspace.wet
+    q, wet, everybody = bodies.orientation, workspace.wet, workspace.idle
+    for i in range(floating):
+        everybody[i] = i
+    if surroundings.water:
+        submerge(everybody, 0, floating, hulls, bodies, workspace, 0)
     for i in range(floating):
         if solids.inverse_mass[i] == 0.0:
             continue
@@ -24,7 +28,6 @@ def instant_energies(floating, hulls, solids, surroundings, bodies, pairs, works
         z = bodies.position[i, 2]
         weight += solids.mass[i] * surroundings.gravity * z
         if surroundings.water:
-            submerge_tilted(i, hulls, bodies, workspace, 0)
             up = rotation_matrix(q[i, 0], q[i, 1], q[i, 2], q[i, 3])[2]
             volume, cx, cy, cz = wet[i, 0], wet[i, 1], wet[i, 2], wet[i, 3]
             height = z + up[0] * cx + up[1] * cy + up[2] * cz

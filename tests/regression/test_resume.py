@@ -35,7 +35,7 @@ def interrupt_after(monkeypatch, looks: int) -> None:
     monkeypatch.setattr(simulation, "Interruption", type("Asked", (AskedAfter,), {"looks": looks}))
 
 
-@pytest.mark.parametrize(("name", "looks"), [("crowded", (0, 31, 60)), ("mixed", (17, 1, 25))])
+@pytest.mark.parametrize(("name", "looks"), [("crowded", (0, 31, 60)), ("mixed", (7, 1, 9))])
 def test_a_run_interrupted_three_times_equals_one_that_was_not(name, looks, request, monkeypatch, tmp_path):
     case, out = load(CASES / f"{name}.toml"), tmp_path / name
     for number, count in enumerate(looks):
