@@ -12,9 +12,11 @@ from numba import types
 from dilatedem.contact.gather import close_tally, end_window, load_structures, record_loads, too_deep
 from dilatedem.contact.neighbours import awake_pairs, find_pairs
 from dilatedem.jit import device, kernel
+from dilatedem.motion.energy import book_energies
 from dilatedem.motion.paces import foresee
 from dilatedem.motion.stages import collide_pairs, complete_spins, drift_bodies, load_and_kick, longest_path, surprised
 from dilatedem.motion.step import DONE, PAIRS_FULL, TOO_DEEP, TOO_FAST
+from dilatedem.motion.timestep import assembled_frequency
 
 #: stages in the order of the step; `booked` of `timed_advance` has a row for each
 STAGES = ("search", "foresee", "drift", "wake", "collide", "float", "record", "idle")
@@ -102,6 +104,8 @@ def timed_advance(
         t = _lap(booked, IDLE, timespec, t)
     close_tally(tally, ledger, loads, clock)
     complete_spins(model, bodies)
+    book_energies(model, bodies, pairs, workspace, ledger)
+    clock.frequency[0] = assembled_frequency(model.solids, bodies, pairs, workspace.room)
     return status
 
 

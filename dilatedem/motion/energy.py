@@ -1,21 +1,22 @@
 """The energies of an instant: with the running sums of `state.record.Ledger` they close the ledger of a run."""
 
 from dilatedem.contact.friction import length
-from dilatedem.jit import kernel
+from dilatedem.jit import device
 from dilatedem.motion.integrate import kinetic_energy
 from dilatedem.numerics.rotation import rotation_matrix
 from dilatedem.numerics.vector import load
 from dilatedem.water.floating import submerge
 
 
-@kernel
-def instant_energies(floating, hulls, solids, surroundings, bodies, pairs, workspace):
-    """Kinetic energy, energy of weight and of buoyancy, elastic energy of all contacts [J] (4 values).
+@device
+def book_energies(model, bodies, pairs, workspace, ledger):
+    """Kinetic energy, energy of weight and of buoyancy, elastic energy of all contacts at this instant, to the ledger.
 
     Buoyancy: the water a body has displaced was lifted from the centre of buoyancy to the surface, -rho g V z_B, whose gradient
     is the buoyancy force and moment of any convex body.
     """
     kinetic = weight = buoyancy = elastic = 0.0
+    floating, solids, surroundings, hulls = model.floating, model.solids, model.surroundings, model.hulls
     q, wet, everybody = bodies.orientation, workspace.wet, workspace.idle
     for i in range(floating):
         everybody[i] = i
@@ -35,4 +36,4 @@ def instant_energies(floating, hulls, solids, surroundings, bodies, pairs, works
     for k in range(pairs.count[0]):
         if pairs.overlap[k] > 0.0:
             elastic += pairs.stored[k] + 0.5 * pairs.shear_stiffness[k] * length(load(pairs.slip, k), pairs.wrung[k]) ** 2
-    return kinetic, weight, buoyancy, elastic
+    ledger.kinetic[0], ledger.gravity[0], ledger.buoyancy[0], ledger.elastic[0] = kinetic, weight, buoyancy, elastic

@@ -3,8 +3,10 @@
 from dilatedem.contact.gather import close_tally, end_window, load_structures, record_loads, too_deep
 from dilatedem.contact.neighbours import awake_pairs, find_pairs
 from dilatedem.jit import kernel
+from dilatedem.motion.energy import book_energies
 from dilatedem.motion.paces import foresee
 from dilatedem.motion.stages import collide_pairs, complete_spins, drift_bodies, load_and_kick, longest_path, surprised
+from dilatedem.motion.timestep import assembled_frequency
 from dilatedem.state.clock import Status
 
 DONE, PAIRS_FULL, TOO_FAST, TOO_DEEP = int(Status.DONE), int(Status.PAIRS_FULL), int(Status.TOO_FAST), int(Status.TOO_DEEP)
@@ -48,4 +50,6 @@ def advance(team, model, bodies, pairs, spare, cells, workspace, tally, ledger, 
         load_and_kick(team, workspace.idle, idle, 0, spent, model, bodies, pairs, workspace)
     close_tally(tally, ledger, loads, clock)
     complete_spins(model, bodies)
+    book_energies(model, bodies, pairs, workspace, ledger)
+    clock.frequency[0] = assembled_frequency(model.solids, bodies, pairs, workspace.room)
     return status

@@ -11,7 +11,7 @@ import numpy as np
 from dilatedem.contact.consistent.line import line_compliance
 from dilatedem.contact.kinematics import mobility
 from dilatedem.contact.liu2015 import BETA
-from dilatedem.jit import kernel
+from dilatedem.jit import device
 from dilatedem.numerics.blocks import take
 from dilatedem.numerics.vector import load
 from dilatedem.state.setting import ContactModel
@@ -117,7 +117,7 @@ def _line_stiffness(shapes, i: int, modulus: float, inverse_mass: float, speed: 
     return stiffness
 
 
-@kernel
+@device
 def assembled_frequency(solids, bodies, pairs, stiffness):
     """Upper bound of the highest angular frequency [rad/s] of the normal springs that are open now (friction springs left out).
 

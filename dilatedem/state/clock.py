@@ -28,8 +28,9 @@ class Clock(NamedTuple):
     evaluations: np.ndarray  # (1,) pairs looked at closely
     rounds: np.ndarray  # (1,) rounds of their distance searches
     rebuilds: np.ndarray  # (1,) lists of pairs made
+    frequency: np.ndarray  # (1,) rad/s, bound on that of the contacts that were open when `advance` came back
 
 
 def clock_at_start() -> Clock:
     counts = {name: np.zeros(1, np.int64) for name in Clock._fields}
-    return Clock(**counts | {"culprit": np.full(2, -1, np.int64), "measure": np.zeros(1)})
+    return Clock(**counts | {"culprit": np.full(2, -1, np.int64), "measure": np.zeros(1), "frequency": np.zeros(1)})

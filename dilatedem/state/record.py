@@ -16,11 +16,15 @@ PARTS = 32
 
 
 class Ledger(NamedTuple):
-    """Energy that came in or went out since the start, J; each an array (1,)."""
+    """Energies, J, each an array (1,): what came in or went out since the start, and what is stored where `advance` came back."""
 
     loss_damping: np.ndarray
     loss_friction: np.ndarray
     gain_law: np.ndarray
+    kinetic: np.ndarray
+    gravity: np.ndarray
+    buoyancy: np.ndarray
+    elastic: np.ndarray
 
 
 class Tally(NamedTuple):
