@@ -182,8 +182,8 @@ _INNER = {**_OPTIONS, "no_cpython_wrapper": True, "no_cfunc_wrapper": True, "pip
 
 
 def kernel(function):
-    """Compile a loop that Python calls; its machine code is kept on disk."""
-    return numba.njit(cache=True, pipeline_class=_KernelCompiler, **_OPTIONS)(function)
+    """Compile a loop that Python calls; its machine code is kept on disk. Other threads of Python go on while it runs."""
+    return numba.njit(cache=True, nogil=True, pipeline_class=_KernelCompiler, **_OPTIONS)(function)
 
 
 def device(function):

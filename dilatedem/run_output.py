@@ -15,6 +15,7 @@ from dilatedem.geometry.polyhedron import Polyhedron
 from dilatedem.output import checkpoint, folder
 from dilatedem.output.archive import ContactStatistics, FloeTable, LoadMap, RunArchive
 from dilatedem.output.atomic import write_text
+from dilatedem.output.background import Background
 from dilatedem.output.schedule import Schedule
 from dilatedem.output.summary import versions, write_summary
 from dilatedem.output.tables import BODIES_COLUMNS, ENERGY_COLUMNS, FORCES_COLUMNS, Table
@@ -44,7 +45,7 @@ class Totals:
 
 
 class RunOutput:
-    """The run folder of one simulation, kept up to date from step to step."""
+    """The run folder of one simulation, kept up to date from step to step; whole files are written in the background."""
 
     def __init__(self, simulation, out: Path, saved: dict):
         """Go on writing a run from the checkpoint whose meta is `saved`."""
@@ -87,6 +88,7 @@ class RunOutput:
         self._look_ahead(since)
         self._schedule_windows(max(since, 0))
         self._listed, self._refreshed = 0, time.monotonic()
+        self._background = Background()
 
     @staticmethod
     def _columns() -> dict:
@@ -103,6 +105,7 @@ class RunOutput:
         self._refresh()
         for table in self._tables.values():
             table.close()
+        self._background.close()
         self._archive.close()
 
     def _schedule_windows(self, step: int) -> None:
@@ -153,6 +156,7 @@ class RunOutput:
         """
         if not self._simulation.state.watch:
             self._save("completed")
+            self._background.wait()
             return ""
         self._save("running")  # a kill during the check costs the check alone
         try:
@@ -163,25 +167,28 @@ class RunOutput:
         self._checked["wall_s"] = time.perf_counter() - self._began
         self._note_wall_time()
         self._write_summary("completed", "")
+        self._background.wait()
         return self._checked["message"]
 
     def interrupt(self) -> None:
         self._save("interrupted", "stopped by the user; --resume goes on")
+        self._background.wait()
 
     def stop(self, message: str) -> None:
         """The simulation cannot go on: keep the last checkpoint, and the state that failed beside it."""
         self._refresh(durable=True)
         self._note_wall_time()
-        checkpoint.save(self._out / "stopped.h5", self._simulation.state.groups(), self._meta())
+        self._background.put(checkpoint.save, self._out / "stopped.h5", self._simulation.state.copies(), self._meta())
         self._write_archive()
         self._write_summary("stopped", message)
+        self._background.wait()
 
     def _save(self, status: str, message: str = "") -> None:
         """Everything up to now, in files that a later run can go on from."""
         self._refresh(durable=True)
         self._write_archive()
         self._note_wall_time()
-        checkpoint.save(self._out / folder.CHECKPOINT, self._simulation.state.groups(), self._meta())
+        self._background.put(checkpoint.save, self._out / folder.CHECKPOINT, self._simulation.state.copies(), self._meta())
         self._write_summary(status, message)
 
     def note_compiling(self, seconds: float) -> None:
@@ -202,7 +209,7 @@ class RunOutput:
         for table in self._tables.values():
             table.flush(durable=durable)
         if self._listed < len(self.totals.snapshots):
-            write_pvd(self._out / folder.ICE_COLLECTION, self.totals.snapshots)
+            self._background.put(write_pvd, self._out / folder.ICE_COLLECTION, list(self.totals.snapshots))
             self._listed = len(self.totals.snapshots)
         self._refreshed = time.monotonic()
 
@@ -238,18 +245,19 @@ class RunOutput:
         bodies, count, domain = simulation.state.bodies, simulation.model.floating, simulation.case.domain
         number = self._snapshots.events_until(int(simulation.state.clock.step[0])) - 1
         periodic = (domain.x_boundary == "periodic", domain.y_boundary == "periodic")
-        velocity = bodies.velocity[:count]
-        self._writer.write(
+        velocity = bodies.velocity[:count].copy()
+        self._background.put(
+            self._writer.write,
             self._out / folder.snapshot_name(number),
             wrapped(bodies.position[:count], domain.size, periodic),
-            bodies.orientation[:count],
+            bodies.orientation[:count].copy(),
             {
                 "body": np.arange(count),
                 "velocity": velocity,
                 "speed": np.linalg.norm(velocity, axis=1),
-                "angular_velocity": bodies.angular_velocity[:count],
-                "contact_force": bodies.contact_force[:count],
-                "contacts": bodies.contact_count[:count],
+                "angular_velocity": bodies.angular_velocity[:count].copy(),
+                "contact_force": bodies.contact_force[:count].copy(),
+                "contacts": bodies.contact_count[:count].copy(),
             },
         )
         totals.snapshots.append([simulation.time_s, folder.snapshot_name(number)])
@@ -293,7 +301,7 @@ class RunOutput:
         terms = {f"{name}_J": value for name, value in simulation.energies().items()} if step else {}
         work = abs(terms.get("work_drag_J", 0.0))
         stepping_s = totals.wall_s - totals.compile_s - self._checked.get("wall_s", 0.0)
-        write_summary(self._out / folder.SUMMARY, {
+        self._background.put(write_summary, self._out / folder.SUMMARY, {
             "status": status, "message": message, "title": case.title, "version": __version__, "versions": versions(),
             "seed": case.field.seed, "floes": simulation.model.floating, "steps": step, "dt_s": simulation.dt,
             "dt_critical_s": simulation.critical, "dt_over_critical": simulation.dt / simulation.critical,

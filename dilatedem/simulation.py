@@ -57,6 +57,11 @@ class State:
         own = {name: getattr(self, name) for name in ("bodies", "ledger", "loads", "clock")}
         return own | {"pairs": in_use(self.pairs)} | (self.watch.groups() if self.watch else {})
 
+    def copies(self) -> dict:
+        """The same groups as they are now, while the state goes on to change."""
+        kept = self.watch.groups() if self.watch else {}
+        return {name: kept.get(name) or type(group)(*map(np.copy, group)) for name, group in self.groups().items()}
+
 
 @dataclass
 class Simulation:
