@@ -85,10 +85,6 @@ class Team(NamedTuple):
 # of calls most of the time. So what kernels call is only written down; a kernel takes it all in and is optimised in one go.
 
 
-#: parts of the names of functions that are not merged into those that call them
-_RARE: set[str] = set()
-
-
 class _NoEngine:
     """What an inner function has instead of machine code."""
 
@@ -145,9 +141,6 @@ class _KernelLibrary(JITCodeLibrary):
         for function in self._final_module.functions:
             if not function.is_declaration and function.linkage == Linkage.linkonce_odr:
                 function.linkage = Linkage.internal
-                if any(name in function.name for name in _RARE):
-                    function.add_function_attribute("noinline")
-                    function.add_function_attribute("cold")
         super()._optimize_final_module()
 
     def serialize_using_object_code(self):
@@ -205,16 +198,6 @@ def item(function):
     Numba's own `inline="always"` loses writes in parallel loops.
     """
     return numba.njit(**_INNER, forceinline=True)(function)
-
-
-def rare(function):
-    """Compile a function that kernels seldom call, kept out of the code that calls it.
-
-    What a loop runs through every time should fit into the processor's cache of instructions.
-    """
-    place = [*function.__module__.split("."), function.__qualname__]
-    _RARE.add("".join(f"{len(part)}{part}" for part in place))  # as it stands in the names of the machine code
-    return numba.njit(**_INNER, forceinline=False)(function)
 
 
 def shared_loop(function):

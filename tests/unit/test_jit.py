@@ -1,9 +1,9 @@
-"""`jit.prefetch` reads and writes nothing, whatever the layout of the array; `jit.rare` keeps a function out of its callers."""
+"""`jit.prefetch` reads and writes nothing, whatever the layout of the array."""
 
 import numpy as np
 import pytest
 
-from dilatedem.jit import CACHE_LINE, device, item, kernel, prefetch, rare
+from dilatedem.jit import CACHE_LINE, kernel, prefetch
 from dilatedem.motion.stages import PAIR_LINES
 from dilatedem.state.pairs import empty_pairs
 
@@ -34,32 +34,3 @@ def test_the_instruction_is_in_the_machine_code():
 def test_a_pairs_row_is_as_many_lines_as_are_fetched():
     pairs = empty_pairs(3)
     assert pairs.rounds.strides[0] == PAIR_LINES * CACHE_LINE and pairs.rounds.ctypes.data % CACHE_LINE == 0
-
-
-@rare
-def seldom(x):
-    return x * x
-
-
-@device
-def often(x):
-    return 2.0 * x
-
-
-@item
-def halved(x):
-    return seldom(x) if x < 0.0 else often(0.5 * x)
-
-
-@kernel
-def sum_halved(array):
-    total = 0.0
-    for i in range(len(array)):
-        total += halved(array[i])
-    return total
-
-
-def test_what_is_rare_stays_out_of_the_code_that_calls_it():
-    assert sum_halved(np.array([1.0, -3.0])) == 10.0
-    labels = [line for code in sum_halved.inspect_asm().values() for line in code.splitlines() if line.endswith(":")]
-    assert any("6seldom" in label for label in labels) and not any("5often" in label for label in labels)
