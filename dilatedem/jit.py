@@ -129,7 +129,7 @@ def _shareable(module):
     module = module.clone()
     for function in module.functions:
         if not function.is_declaration and function.linkage == Linkage.external:
-            function.linkage = Linkage.linkonce_odr
+            function.linkage = Linkage.weak_odr
     return module
 
 
@@ -137,10 +137,12 @@ class _KernelLibrary(JITCodeLibrary):
     """A kernel with all that it calls."""
 
     def _optimize_final_module(self):
-        # nobody else sees its functions: arguments that none of them uses may go, which makes a step a tenth faster and more
+        # nobody else sees its functions: arguments that none of them uses may go, which makes a step a tenth faster and more.
+        # Private, not internal: an internal function has a name in the machine code, and the linker of code that comes later takes
+        # it for that of other functions of this name, whose callers hand over those arguments and await an answer.
         for function in self._final_module.functions:
-            if not function.is_declaration and function.linkage == Linkage.linkonce_odr:
-                function.linkage = Linkage.internal
+            if not function.is_declaration and function.linkage in (Linkage.linkonce_odr, Linkage.weak_odr):
+                function.linkage = Linkage.private
         super()._optimize_final_module()
 
     def serialize_using_object_code(self):
@@ -168,13 +170,17 @@ class _KernelCompiler(_InnerCompiler):
     library_class = _KernelLibrary
 
     def compile_extra(self, function):
-        thresholds = gc.get_threshold()
+        codegen, thresholds = self.state.targetctx.codegen(), gc.get_threshold()
+        usual = codegen._library_class
+        # what Numba adds by itself, as the bodies of parallel loops, is inner code too
+        codegen._library_class = _InnerLibrary
         # the compiler makes millions of objects that stay: to look through them again and again takes a quarter of the time
         gc.set_threshold(GARBAGE, *thresholds[1:])
         try:
             return super().compile_extra(function)
         finally:
             gc.set_threshold(*thresholds)
+            codegen._library_class = usual
 
 
 #: Python never calls what kernels call: without the wrappers for that, compiling takes a third less

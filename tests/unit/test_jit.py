@@ -1,9 +1,11 @@
-"""`jit.prefetch` reads and writes nothing, whatever the layout of the array."""
+"""`jit.prefetch` reads and writes nothing, whatever the layout of the array; kernels leave each other's functions alone."""
+
+import re
 
 import numpy as np
 import pytest
 
-from dilatedem.jit import CACHE_LINE, kernel, prefetch
+from dilatedem.jit import CACHE_LINE, device, kernel, prange, prefetch, shared_loop
 from dilatedem.motion.stages import PAIR_LINES
 from dilatedem.state.pairs import empty_pairs
 
@@ -35,3 +37,36 @@ def test_the_instruction_is_in_the_machine_code():
 def test_a_pairs_row_is_as_many_lines_as_are_fetched():
     pairs = empty_pairs(3)
     assert pairs.rounds.strides[0] == PAIR_LINES * CACHE_LINE and pairs.rounds.ctypes.data % CACHE_LINE == 0
+
+
+@device
+def _sum_of_block(array, blocks, block):
+    """Too long to be merged into what calls it twice; `blocks` is an argument that optimising may take away."""
+    total = 0.0
+    for i in range(block, len(array), 2):
+        total += np.exp(np.sin(array[i])) / (1.0 + np.cosh(array[i])) ** 1.5
+    for i in range(block, len(array), 2):
+        total -= np.exp(np.cos(array[i])) / (1.0 + np.sinh(array[i]) ** 2) ** 2.5
+    return total
+
+
+@shared_loop
+def _sum_blocks(array, sums):
+    for block in prange(2):
+        sums[block] = _sum_of_block(array, 2, block)
+
+
+@kernel
+def summed_together(array, sums):
+    _sum_blocks(array, sums)
+    return sums[0] + sums[1]
+
+
+def test_a_kernel_shows_the_linker_nothing_but_itself():
+    """The linker takes functions of one name for the same: optimised as parts of their kernels they no longer are."""
+    summed_together(np.ones(4), np.zeros(2))
+    summed_together.recompile()  # code that comes from the disk cannot be read
+    (code,) = summed_together.inspect_asm().values()
+    functions = re.findall(r"\.type\s+(\S+),@function", code)
+    shown = [name for name in functions if not name.startswith(".L")]
+    assert len(functions) > len(shown) == 3 and all("summed_together" in name for name in shown)
