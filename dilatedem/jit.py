@@ -133,6 +133,17 @@ def _shareable(module):
     return module
 
 
+class _RareLibrary(_InnerLibrary):
+    """Code of a function that kernels seldom call: it stays apart from theirs."""
+
+    def finalize(self):
+        super().finalize()
+        for function in self._final_module.functions:
+            if not function.is_declaration:
+                function.add_function_attribute("noinline")
+                function.add_function_attribute("cold")
+
+
 class _KernelLibrary(JITCodeLibrary):
     """A kernel with all that it calls."""
 
@@ -162,6 +173,12 @@ class _InnerCompiler(Compiler):
             self.state.library = self.library_class(self.state.targetctx.codegen(), self.state.func_id.func_qualname)
             self.state.library.enable_object_caching()
         return super().define_pipelines()
+
+
+class _RareCompiler(_InnerCompiler):
+    """Compiles what kernels seldom call."""
+
+    library_class = _RareLibrary
 
 
 class _KernelCompiler(_InnerCompiler):
@@ -204,6 +221,14 @@ def item(function):
     Numba's own `inline="always"` loses writes in parallel loops.
     """
     return numba.njit(**_INNER, forceinline=True)(function)
+
+
+def rare(function):
+    """Compile a function that kernels seldom call, kept out of the code that calls it.
+
+    What a loop runs through every time should fit into the processor's cache of instructions.
+    """
+    return numba.njit(**{**_INNER, "pipeline_class": _RareCompiler}, forceinline=False)(function)
 
 
 def shared_loop(function):

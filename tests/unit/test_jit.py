@@ -1,11 +1,12 @@
-"""`jit.prefetch` reads and writes nothing, whatever the layout of the array; kernels leave each other's functions alone."""
+"""`jit.prefetch` reads and writes nothing, whatever the layout of the array; kernels hide their functions from each other;
+`jit.rare` keeps a function out of those that call it."""
 
 import re
 
 import numpy as np
 import pytest
 
-from dilatedem.jit import CACHE_LINE, device, kernel, prange, prefetch, shared_loop
+from dilatedem.jit import CACHE_LINE, device, item, kernel, prange, prefetch, rare, shared_loop
 from dilatedem.motion.stages import PAIR_LINES
 from dilatedem.state.pairs import empty_pairs
 
@@ -70,3 +71,33 @@ def test_a_kernel_shows_the_linker_nothing_but_itself():
     functions = re.findall(r"\.type\s+(\S+),@function", code)
     shown = [name for name in functions if not name.startswith(".L")]
     assert len(functions) > len(shown) == 3 and all("summed_together" in name for name in shown)
+
+
+@rare
+def seldom(x):
+    return x * x
+
+
+@device
+def often(x):
+    return 2.0 * x
+
+
+@item
+def halved(x):
+    return seldom(x) if x < 0.0 else often(0.5 * x)
+
+
+@kernel
+def sum_halved(array):
+    total = 0.0
+    for i in range(len(array)):
+        total += halved(array[i])
+    return total
+
+
+def test_what_is_rare_stays_out_of_the_code_that_calls_it():
+    assert sum_halved(np.array([1.0, -3.0])) == 10.0
+    sum_halved.recompile()
+    labels = [line for code in sum_halved.inspect_asm().values() for line in code.splitlines() if line.endswith(":")]
+    assert any("6seldom" in label for label in labels) and not any("5often" in label for label in labels)
