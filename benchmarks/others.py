@@ -19,18 +19,22 @@ FILES_DURATION = 100.0
 #: dilatedem's command line up to the end of the first step of the run itself (kernels are tried out on one body before); then it
 #: tells the time and ends
 _FIRST_STEP = """
-import os, sys, time
-from dilatedem import simulation
-from dilatedem.cli import main
-whole = simulation.Simulation.advance
-def first(self, steps, *, dt=None):
-    if dt is not None or self.model.floating < 2:
-        return whole(self, steps, dt=dt)
-    whole(self, 1)
-    print("first step", time.time(), flush=True)
-    os._exit(0)
-simulation.Simulation.advance = first
-main()
+import os, time
+from dilatedem import cli
+command = cli.app
+def app():
+    from dilatedem.simulation import Simulation
+    whole = Simulation.advance
+    def first(self, steps, *, dt=None):
+        if dt is not None or self.model.floating < 2:
+            return whole(self, steps, dt=dt)
+        whole(self, 1)
+        print("first step", time.time(), flush=True)
+        os._exit(0)
+    Simulation.advance = first
+    command()
+cli.app = app
+cli.main()
 """
 
 #: the paper's case for a while: from the opening of its folder to the end, all that is not `advance` (its replays included) counts

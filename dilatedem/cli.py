@@ -14,6 +14,7 @@ import typer
 
 from dilatedem import __version__
 from dilatedem.errors import CaseError, Interrupted, SimulationStopped
+from dilatedem.garbage import seldom_collected
 
 EXIT_WRONG = 2
 EXIT_STOPPED = 3
@@ -257,7 +258,8 @@ def schema() -> None:
 
 def main() -> None:
     """Entry point of the `dilatedem` command."""
-    app()
+    with seldom_collected():
+        app()
 
 
 def _end(message: str, code: int) -> None:
