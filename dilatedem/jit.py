@@ -177,9 +177,9 @@ def _with_room(function, *arguments):
     return function(*arguments)
 
 
-# Python keeps its frames in chunks of 16 kB and unmaps each as soon as it is empty: a loop that calls across the end of one maps and
-# unmaps it every time, 400 000 times while a kernel is compiled, a sixth of the time. One frame that says it needs 2.4 MB gets a
-# chunk of 4 MB (no more of it is used than frames fill), in which the rest is theirs.
+# Python keeps its frames in chunks of 16 kB and unmaps each as soon as it is empty: a loop that calls across the end of one maps
+# and unmaps it every time, 400 000 times while a kernel is compiled, a sixth of the time. One frame that says it needs 2.4 MB gets
+# a chunk of 4 MB (no more of it is used than frames fill), in which the rest is theirs.
 _with_room.__code__ = _with_room.__code__.replace(co_stacksize=300_000)
 
 
