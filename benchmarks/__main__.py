@@ -10,6 +10,8 @@ from benchmarks.scenes import MODELS, SCENES
 from benchmarks.targets import targets
 
 HERE = Path(__file__).parent
+#: columns of results.csv that say what was measured
+CONFIGURATION = ("scene", "model", "size", "threads")
 _EXAMPLES = """examples:
   python -m benchmarks                        all scenes, models, sizes and threads (about ten minutes on an idle machine)
   python -m benchmarks --quick                200 floes, one thread; nothing is written unless --out is given
@@ -30,8 +32,9 @@ def arguments(given: Sequence[str] | None = None) -> argparse.Namespace:
     which.add_argument("--models", nargs="+", choices=MODELS, metavar="MODEL", help=f"of {', '.join(MODELS)}; default both")
     which.add_argument("--sizes", nargs="+", type=_positive, metavar="FLOES", help="default 200 2000 10000 100000")
     which.add_argument("--threads", nargs="+", type=_positive, metavar="N", help="default 1 2")
-    which.add_argument("--repeats", type=_positive, metavar="N", help="best and median of so many; default 5")
-    which.add_argument("--quick", action="store_true", help="200 floes, one thread, 2 repeats unless given otherwise")
+    which.add_argument("--repeats", type=_positive, metavar="N", help="so many in a round; default 2")
+    which.add_argument("--rounds", type=_positive, metavar="N", help="best and median of all repeats of so many; default 3")
+    which.add_argument("--quick", action="store_true", help="200 floes, one thread, one round unless given otherwise")
     extra = parser.add_argument_group("other figures, each in a process of its own")
     for name, function in others.OTHERS.items():
         extra.add_argument(f"--{name}", action="store_true", help=function.__doc__.partition("\n")[0])
@@ -49,20 +52,20 @@ def _positive(text: str) -> int:
 
 def plan_of(options: argparse.Namespace) -> Plan | None:
     """The scenes to measure; None where only other figures are asked for."""
-    chosen = (options.scenes, options.models, options.sizes, options.threads, options.repeats)
+    chosen = (options.scenes, options.models, options.sizes, options.threads, options.repeats, options.rounds)
     extra = any(getattr(options, name) for name in others.OTHERS)
     if extra and not (options.all or options.quick or any(chosen)):
         return None
-    sizes, threads, repeats = ((200,), (1,), 2) if options.quick else (Plan.sizes, Plan.threads, Plan.repeats)
+    sizes, threads, rounds = ((200,), (1,), 1) if options.quick else (Plan.sizes, Plan.threads, Plan.rounds)
     return Plan(
         tuple(options.scenes or SCENES), tuple(options.models or MODELS), tuple(options.sizes or sizes),
-        tuple(options.threads or threads), options.repeats or repeats,
+        tuple(options.threads or threads), options.repeats or Plan.repeats, options.rounds or rounds,
     )  # fmt: skip
 
 
 def keep(folder: Path, rows: list[dict], figures: list[dict]) -> tuple[list[dict], list[dict]]:
     """Bring new results into a folder's files; returns all that the folder has now."""
-    rows = results.merged(results.read(folder / results.RESULTS), rows, ("scene", "model", "size", "threads"))
+    rows = results.merged(results.read(folder / results.RESULTS), rows, CONFIGURATION)
     figures = results.merged(results.read(folder / results.OTHERS), figures, ("name",))
     if rows:
         results.write(folder / results.RESULTS, rows)
@@ -93,7 +96,7 @@ def main(given: Sequence[str] | None = None) -> None:
     folder = options.out or (None if options.quick else HERE)
     rows, figures = [], []
     for row in rows_of(plan) if plan else ():
-        rows.append(row)
+        rows = results.merged(rows, [row], CONFIGURATION)
         print(line(row), flush=True)
         if folder:  # at once: an interrupted evening is not lost
             keep(folder, rows, [])

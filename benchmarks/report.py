@@ -25,9 +25,10 @@ Three fixed scenes of 200 floes (`scenes/`), water, friction, contact history, l
 side, each with its pile, so that the work per floe stays what it is. The step is 1e-4 s everywhere;
 floes that nothing can touch take several of them in one, as in any run.
 
-A figure is the best of several repeats (the median in brackets) of one stretch of steps, run again and again from the same state
-for at least 0.3 s. The time of a step comes from the program's own loop; times by stage from a copy of that loop which looks at
-the clock between stages, the clock's own 20-odd ns taken off."""
+A figure is the best of all repeats (the median in brackets) of one stretch of steps, run again and again from the same state for at
+least 0.3 s. Repeats come in three rounds, minutes apart, as machines have slow minutes and ratios compare figures of different
+ones. The time of a step comes from the program's own loop; times by stage from a copy of that loop which looks at the clock between
+stages, the clock's own 20-odd ns taken off."""
 
 
 def _table(header: list[str], rows: list[list[str]]) -> str:
