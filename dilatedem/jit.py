@@ -9,8 +9,14 @@ disk), `device` for the functions that kernels call.
 import hashlib
 import os
 import tempfile
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import NamedTuple
+
+try:
+    import fcntl
+except ImportError:  # Windows
+    fcntl = None
 
 _OPTIONS = {"error_model": "numpy", "_nrt": False}
 
@@ -62,6 +68,8 @@ prange = numba.prange
 
 #: bytes
 CACHE_LINE = 64
+#: file in a folder of machine code that the process which writes there holds
+LOCK = "lock"
 
 
 class Alone(NamedTuple):
@@ -212,7 +220,28 @@ _INNER = {**_OPTIONS, "no_cpython_wrapper": True, "no_cfunc_wrapper": True, "pip
 
 def kernel(function):
     """Compile a loop that Python calls; its machine code is kept on disk. Other threads of Python go on while it runs."""
-    return numba.njit(cache=True, nogil=True, pipeline_class=_KernelCompiler, **_OPTIONS)(function)
+    dispatcher = numba.njit(cache=True, nogil=True, pipeline_class=_KernelCompiler, **_OPTIONS)(function)
+    cache, save = dispatcher._cache, dispatcher._cache.save_overload
+
+    def save_in_turn(*arguments):
+        with _turn(Path(cache.cache_path)):
+            save(*arguments)
+
+    cache.save_overload = save_in_turn
+    return dispatcher
+
+
+@contextmanager
+def _turn(folder: Path):
+    """Wait until no other process saves machine code in a folder.
+
+    Numba numbers the files of one kernel by a list that each process reads, adds to and writes: two that add at once would take the
+    same number, and one kind of arguments could get the machine code of the other.
+    """
+    with (folder / LOCK).open("w") as file:
+        with suppress(OSError, AttributeError):  # there are systems, and file systems, without locks
+            fcntl.flock(file, fcntl.LOCK_EX)
+        yield
 
 
 def device(function):

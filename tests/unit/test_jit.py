@@ -1,12 +1,16 @@
 """`jit.prefetch` reads and writes nothing, whatever the layout of the array; kernels hide their functions from each other;
 `jit.rare` keeps a function out of those that call it."""
 
+import fcntl
 import re
+import threading
+from pathlib import Path
 
+import numba
 import numpy as np
 import pytest
 
-from dilatedem.jit import CACHE_LINE, device, item, kernel, prange, prefetch, rare, shared_loop
+from dilatedem.jit import CACHE_LINE, LOCK, device, item, kernel, prange, prefetch, rare, shared_loop
 from dilatedem.motion.stages import PAIR_LINES
 from dilatedem.state.pairs import empty_pairs
 
@@ -71,6 +75,25 @@ def test_a_kernel_shows_the_linker_nothing_but_itself():
     functions = re.findall(r"\.type\s+(\S+),@function", code)
     shown = [name for name in functions if not name.startswith(".L")]
     assert len(functions) > len(shown) == 3 and all("summed_together" in name for name in shown)
+
+
+def test_two_processes_keep_machine_code_one_after_the_other(tmp_path, monkeypatch):
+    monkeypatch.setattr(numba.config, "CACHE_DIR", str(tmp_path))
+
+    @kernel
+    def doubled(x):
+        return 2.0 * x
+
+    folder = Path(doubled.stats.cache_path)
+    folder.mkdir(parents=True, exist_ok=True)
+    thread = threading.Thread(target=doubled, args=(1.0,))
+    with (folder / LOCK).open("w") as other:
+        fcntl.flock(other, fcntl.LOCK_EX)
+        thread.start()
+        thread.join(timeout=2.0)
+        assert thread.is_alive() and not list(folder.glob("*.nb?")), "nothing is written while another process does"
+    thread.join()
+    assert len(list(folder.glob("*.nbc"))) == 1
 
 
 @rare
