@@ -239,8 +239,9 @@ def _turn(folder: Path):
     same number, and one kind of arguments could get the machine code of the other.
     """
     with (folder / LOCK).open("w") as file:
-        with suppress(OSError, AttributeError):  # there are systems, and file systems, without locks
-            fcntl.flock(file, fcntl.LOCK_EX)
+        if fcntl:
+            with suppress(OSError):  # there are file systems without locks
+                fcntl.flock(file, fcntl.LOCK_EX)
         yield
 
 
