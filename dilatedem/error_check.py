@@ -88,8 +88,12 @@ class Watch:
         state: at this moment; windows: of forces.csv, of which those from the number `first` on have ended since the last look
         """
         step, count = int(state.clock.step[0]), int(windows.count[0])
-        for end, highest in zip(windows.due[first:count].tolist(), windows.extreme[first:count, :, 4].tolist(), strict=True):
-            self._note(highest, end)
+        highest = windows.extreme[first:count, :, 4]
+        if highest.max(initial=0.0) > self.peak:
+            for end, loads in zip(windows.due[first:count].tolist(), highest.tolist(), strict=True):
+                self._note(loads, end)
+        elif count > first:  # nearly always: one comparison of all takes less than one of each
+            self.seen = int(windows.due[count - 1])
         if self.windows.is_due(step):
             if state.loads.steps[0] > 0:  # a window is open
                 self._note(state.loads.window_extreme[:, 4].tolist(), step)

@@ -16,16 +16,13 @@ from dilatedem.output import checkpoint, folder
 from dilatedem.output.archive import ContactStatistics, FloeTable, LoadMap, RunArchive
 from dilatedem.output.atomic import write_text
 from dilatedem.output.background import Background
+from dilatedem.output.energies import work_up as work_up_energies
 from dilatedem.output.schedule import Schedule
 from dilatedem.output.summary import versions, write_summary
 from dilatedem.output.tables import BODIES_COLUMNS, ENERGY_COLUMNS, FORCES_COLUMNS, Table
 from dilatedem.output.vtu import SnapshotWriter, pile_column, plane_plate, wrapped, write_pvd, write_structures
-from dilatedem.output.windows import end_open_window, schedule_windows, work_up
+from dilatedem.output.windows import Ended, append, end_open_window, headline_loads, schedule_windows, work_up
 from dilatedem.state.record import ANGLE_BINS, HEIGHT_BINS
-
-#: energy terms that are stored (their change counts), and those that came in (+) or went out (-)
-STORED = ("kinetic", "gravity", "buoyancy", "elastic")
-FLOWS = {"work_drag": 1.0, "work_structure": 1.0, "gain_law": 1.0, "loss_damping": -1.0, "loss_friction": -1.0}
 
 #: s of wall time after which, at the latest, new rows and snapshots are in the tables and in ice.pvd (or at the next thing due)
 REFRESH_S = 1.0
@@ -59,7 +56,7 @@ class RunOutput:
         """Start a run folder; what an earlier run left there is removed."""
         self = cls.__new__(cls)
         self._prepare(simulation, out, -1)
-        _clear(out)
+        folder.clear(out)
         (out / "snapshots").mkdir(parents=True, exist_ok=True)
         case = simulation.case
         header = f"# dilatedem {__version__}, seed {case.field.seed}\n\n"
@@ -75,7 +72,7 @@ class RunOutput:
         self._structures = ordered_structures(simulation.scene)
         self._writer = SnapshotWriter([shape.outer for shape in simulation.scene.shapes], simulation.scene.order)
         self._began = time.perf_counter()
-        self._archive = self._new_archive()
+        self._archive: RunArchive | None = None  # until it is written first
         self._checked: dict = {}  # what the check of the time step found
         output, pace = simulation.case.output, (simulation.dt, simulation.span)
         self._forces = Schedule(output.force_interval, *pace)
@@ -87,6 +84,8 @@ class RunOutput:
         self._track = Schedule(output.track_interval if len(self._tracked) else 0.0, *pace)
         self._look_ahead(since)
         self._schedule_windows(max(since, 0))
+        self._noted: list[list[float]] = []  # time, step ratio and energies, since the last refresh
+        self._body_rows: list[np.ndarray] = []  # of bodies.csv
         self._listed, self._refreshed = 0, time.monotonic()
         self._background = Background()
 
@@ -103,10 +102,11 @@ class RunOutput:
 
     def __exit__(self, *exception) -> None:
         self._refresh()
+        self._background.close()
         for table in self._tables.values():
             table.close()
-        self._background.close()
-        self._archive.close()
+        if self._archive:
+            self._archive.close()
 
     def _schedule_windows(self, step: int) -> None:
         """Windows of forces.csv end after `step` as its interval says; none waits to be written."""
@@ -140,9 +140,9 @@ class RunOutput:
     def _observe_rest(self, step: int, last: bool) -> None:
         """Write what is due besides windows of forces.csv."""
         if last or self._energy.is_due(step):
-            self._write_energy()
+            self._note_energy()
         if self._track.is_due(step):
-            self._write_bodies()
+            self._note_bodies()
         if self._snapshots.is_due(step):
             self._write_snapshot()
         if not last and self._checkpoints.is_due(step):
@@ -176,19 +176,19 @@ class RunOutput:
 
     def stop(self, message: str) -> None:
         """The simulation cannot go on: keep the last checkpoint, and the state that failed beside it."""
-        self._refresh(durable=True)
+        self._refresh()
         self._note_wall_time()
-        self._background.put(checkpoint.save, self._out / "stopped.h5", self._simulation.state.copies(), self._meta())
-        self._write_archive()
+        self._background.put(self._write_checkpoint, "stopped.h5", self._simulation.state.copies(), self._meta())
+        self._background.put(self._write_archive, *self._contact_record())
         self._write_summary("stopped", message)
         self._background.wait()
 
     def _save(self, status: str, message: str = "") -> None:
         """Everything up to now, in files that a later run can go on from."""
-        self._refresh(durable=True)
-        self._write_archive()
+        self._refresh()
+        self._background.put(self._write_archive, *self._contact_record())
         self._note_wall_time()
-        self._background.put(checkpoint.save, self._out / folder.CHECKPOINT, self._simulation.state.copies(), self._meta())
+        self._background.put(self._write_checkpoint, folder.CHECKPOINT, self._simulation.state.copies(), self._meta())
         self._write_summary(status, message)
 
     def note_compiling(self, seconds: float) -> None:
@@ -201,78 +201,87 @@ class RunOutput:
         self.totals.wall_s += now - self._began
         self._began = now
 
-    def _refresh(self, *, durable: bool = False) -> None:
-        """Bring the tables and the list of snapshots up to this moment; `durable`: tables are on the disk afterwards."""
+    def _refresh(self) -> None:
+        """Bring the tables, the totals and the list of snapshots up to this moment."""
         simulation, names = self._simulation, [structure.name for structure in self._structures]
-        work_up(simulation.windows, names, simulation.dt, self._tables[folder.FORCES], self.totals.peaks)
+        ended = work_up(simulation.windows, names, simulation.dt, self.totals.peaks)
         self._schedule_windows(int(simulation.state.clock.step[0]))
-        for table in self._tables.values():
-            table.flush(durable=durable)
+        energies = work_up_energies(self._noted, list(simulation.energies()), self.totals)
+        self._background.put(self._write_rows, names, ended, energies, self._body_rows)
+        self._noted, self._body_rows = [], []
         if self._listed < len(self.totals.snapshots):
             self._background.put(write_pvd, self._out / folder.ICE_COLLECTION, list(self.totals.snapshots))
             self._listed = len(self.totals.snapshots)
         self._refreshed = time.monotonic()
 
+    def _write_rows(self, names: list[str], ended: Ended | None, energies: np.ndarray, bodies: list[np.ndarray]) -> None:
+        """In the background, which alone touches the tables."""
+        if ended:
+            append(ended, names, self._tables[folder.FORCES])
+        self._tables[folder.ENERGY].append(energies)
+        for rows in bodies:
+            self._tables[folder.BODIES].append(rows)
+        for table in self._tables.values():
+            table.flush()
+
+    def _write_checkpoint(self, file: str, groups: dict, meta: dict) -> None:
+        """In the background. The rows that it counts on are on the disk before it."""
+        for table in self._tables.values():
+            table.flush(durable=True)
+        offsets = {name: table.offset for name, table in self._tables.items()}
+        checkpoint.save(self._out / file, groups, meta | {"offsets": offsets})
+
     def _meta(self) -> dict:
+        """What the checkpoint of this moment holds besides the state and the places in the tables."""
         watch = self._simulation.state.watch
         return {
             "version": __version__,
             "dt": self._simulation.dt,
-            "offsets": {name: table.offset for name, table in self._tables.items()},
             "totals": asdict(self.totals),
         } | ({"watch": watch.figures()} if watch else {})
 
-    def _write_energy(self) -> None:
-        terms, totals = self._simulation.energies(), self.totals
-        total = sum(terms[name] for name in STORED) - sum(sign * terms[name] for name, sign in FLOWS.items())
-        if totals.initial_energy is None:
-            totals.initial_energy = total
-        residual = total - totals.initial_energy
-        totals.largest_residual = max(totals.largest_residual, abs(residual))
-        totals.largest_step_ratio = max(totals.largest_step_ratio, self._simulation.assembled_step_ratio())
-        values = terms | {"time_s": self._simulation.time_s, "residual": residual}
-        self._tables[folder.ENERGY].append([[values[name] for name in ENERGY_COLUMNS]])
+    def _note_energy(self) -> None:
+        simulation = self._simulation
+        self._noted.append([simulation.time_s, simulation.assembled_step_ratio(), *simulation.energies().values()])
 
-    def _write_bodies(self) -> None:
+    def _note_bodies(self) -> None:
         bodies, i = self._simulation.state.bodies, self._tracked
         if len(i):
             time_s = np.full(len(i), self._simulation.time_s)
             columns = [time_s, i, bodies.position[i], bodies.orientation[i], bodies.velocity[i], bodies.angular_velocity[i]]
-            self._tables[folder.BODIES].append(np.column_stack(columns))
+            self._body_rows.append(np.column_stack(columns))
 
     def _write_snapshot(self) -> None:
         simulation, totals = self._simulation, self.totals
-        bodies, count, domain = simulation.state.bodies, simulation.model.floating, simulation.case.domain
+        bodies, count = simulation.state.bodies, simulation.model.floating
         number = self._snapshots.events_until(int(simulation.state.clock.step[0])) - 1
-        periodic = (domain.x_boundary == "periodic", domain.y_boundary == "periodic")
-        velocity = bodies.velocity[:count].copy()
-        self._background.put(
-            self._writer.write,
-            self._out / folder.snapshot_name(number),
-            wrapped(bodies.position[:count], domain.size, periodic),
-            bodies.orientation[:count].copy(),
-            {
-                "body": np.arange(count),
-                "velocity": velocity,
-                "speed": np.linalg.norm(velocity, axis=1),
-                "angular_velocity": bodies.angular_velocity[:count].copy(),
-                "contact_force": bodies.contact_force[:count].copy(),
-                "contacts": bodies.contact_count[:count].copy(),
-            },
-        )
+        pose = (bodies.position[:count].copy(), bodies.orientation[:count].copy())
+        self._background.put(self._write_floes, folder.snapshot_name(number), *pose, {
+            "velocity": bodies.velocity[:count].copy(),
+            "angular_velocity": bodies.angular_velocity[:count].copy(),
+            "contact_force": bodies.contact_force[:count].copy(),
+            "contacts": bodies.contact_count[:count].copy(),
+        })  # fmt: skip
         totals.snapshots.append([simulation.time_s, folder.snapshot_name(number)])
 
-    def _new_archive(self) -> RunArchive:
+    def _write_floes(self, name: str, position: np.ndarray, orientation: np.ndarray, cell_data: dict[str, np.ndarray]) -> None:
+        """In the background: a snapshot."""
+        domain = self._simulation.case.domain
+        periodic = (domain.x_boundary == "periodic", domain.y_boundary == "periodic")
+        cell_data |= {"body": np.arange(len(position)), "speed": np.linalg.norm(cell_data["velocity"], axis=1)}
+        self._writer.write(self._out / name, wrapped(position, domain.size, periodic), orientation, cell_data)
+
+    def _floe_table(self) -> FloeTable:
         model, scene = self._simulation.model, self._simulation.scene
         count = model.floating
-        return RunArchive(*self._contact_record(), FloeTable(
+        return FloeTable(
             body=np.arange(count), x0=scene.position[:, 0], y0=scene.position[:, 1], plan_area=scene.plan_area,
             mass=model.solids.mass[:count], volume=scene.volume(),
             vertices=np.diff(model.shapes.vertex_start)[:count], outlines=scene.outlines,
-        ))  # fmt: skip
+        )  # fmt: skip
 
     def _contact_record(self) -> tuple[list[LoadMap], dict[str, ContactStatistics]]:
-        """Load maps and contact statistics of this moment."""
+        """Load maps and contact statistics of this moment, in copies."""
         simulation, loads = self._simulation, self._simulation.state.loads
         maps = []
         for s, structure in enumerate(self._structures):
@@ -280,19 +289,25 @@ class RunOutput:
             pile = structure.kind == "pile"
             edges = np.linspace(-180.0, 180.0, ANGLE_BINS + 1) if pile else np.linspace(-half, half, ANGLE_BINS + 1)
             maps.append(LoadMap(
-                structure=structure.name, kind=structure.kind, impulse=loads.impulse_map[s], edges=edges,
+                structure=structure.name, kind=structure.kind, impulse=loads.impulse_map[s].copy(), edges=edges,
                 height_edges=np.linspace(low, high, HEIGHT_BINS + 1), duration_s=simulation.time_s,
                 center=structure.center if pile else structure.point, radius=structure.radius if pile else None,
                 axis=None if pile else loads.map_origin[s, 3:],
             ))  # fmt: skip
         statistics = {
-            partners: ContactStatistics(loads.mode_steps[p], loads.mode_impulse[p], loads.mode_force[p], loads.mode_overlap[p])
+            partners: ContactStatistics(*(
+                values[p].copy() for values in (loads.mode_steps, loads.mode_impulse, loads.mode_force, loads.mode_overlap)
+            ))
             for p, partners in enumerate(("ice_ice", "ice_structure"))
-        }
+        }  # fmt: skip
         return maps, statistics
 
-    def _write_archive(self) -> None:
-        self._archive.update(*self._contact_record())
+    def _write_archive(self, maps: list[LoadMap], statistics: dict[str, ContactStatistics]) -> None:
+        """In the background, as laying it out takes a while, too."""
+        if self._archive:
+            self._archive.update(maps, statistics)
+        else:
+            self._archive = RunArchive(maps, statistics, self._floe_table())
         self._archive.write(self._out / folder.RUN_ARCHIVE)
 
     def _write_summary(self, status: str, message: str) -> None:
@@ -302,13 +317,13 @@ class RunOutput:
         work = abs(terms.get("work_drag_J", 0.0))
         stepping_s = totals.wall_s - totals.compile_s - self._checked.get("wall_s", 0.0)
         self._background.put(write_summary, self._out / folder.SUMMARY, {
-            "status": status, "message": message, "title": case.title, "version": __version__, "versions": versions(),
+            "status": status, "message": message, "title": case.title, "version": __version__, "versions": versions,
             "seed": case.field.seed, "floes": simulation.model.floating, "steps": step, "dt_s": simulation.dt,
             "dt_critical_s": simulation.critical, "dt_over_critical": simulation.dt / simulation.critical,
             "dt_over_critical_of_open_contacts": totals.largest_step_ratio, "simulated_s": simulation.time_s,
             "duration_s": case.time.duration, "wall_s": totals.wall_s, "compile_s": totals.compile_s,
             "steps_per_s": step / stepping_s if stepping_s > 0.0 else None, "threads": simulation.threads,
-            "loads": {structure.name: _headline_loads(totals.peaks.get(structure.name)) for structure in self._structures},
+            "loads": {structure.name: headline_loads(totals.peaks.get(structure.name)) for structure in self._structures},
             "energy": terms | {
                 "residual_J": totals.largest_residual, "residual_over_work": totals.largest_residual / work if work else None,
             },
@@ -319,26 +334,8 @@ class RunOutput:
         } | ({"error_check": self._checked} if self._checked else {}))  # fmt: skip
 
 
-def _headline_loads(peak: dict | None) -> dict:
-    names = ("fx_max_N", "fx_min_N", "fy_max_N", "fy_min_N", "fh_max_N", "fh_max_time_s")
-    if peak is None:
-        return dict.fromkeys((*names, "fx_mean_N", "fy_mean_N"), 0.0)
-    steps = max(peak["steps"], 1)
-    return {name: peak[name] for name in names} | {"fx_mean_N": peak["fx_sum"] / steps, "fy_mean_N": peak["fy_sum"] / steps}
-
-
 def _drawn(structure, case) -> Polyhedron:
     """A structure as ParaView sees it."""
     if structure.kind == "pile":
         return pile_column(structure.center, structure.radius)
     return plane_plate(structure.point, structure.normal, 1.2 * float(np.hypot(*case.domain.size)))
-
-
-def _clear(out: Path) -> None:
-    """Remove an earlier run's files from a folder that was given to be overwritten."""
-    names = (folder.CASE, folder.FORCES, folder.ENERGY, folder.BODIES, folder.ICE_COLLECTION, folder.STRUCTURES)
-    for name in (*names, folder.RUN_ARCHIVE, folder.CHECKPOINT, folder.SUMMARY, "stopped.h5", "report.html"):
-        (out / name).unlink(missing_ok=True)
-    for part in ("snapshots", "figures"):
-        for file in (out / part).glob("*"):
-            file.unlink()

@@ -23,3 +23,13 @@ def snapshot_name(number: int) -> str:
 def holds_run(folder) -> bool:
     """Whether `folder` holds a run, whole or cut short: such a folder is never overwritten silently."""
     return any((Path(folder) / name).exists() for name in RUN_MARKS)
+
+
+def clear(folder: Path) -> None:
+    """Remove an earlier run's files from a folder that was given to be overwritten."""
+    names = (CASE, FORCES, ENERGY, BODIES, ICE_COLLECTION, STRUCTURES)
+    for name in (*names, RUN_ARCHIVE, CHECKPOINT, SUMMARY, "stopped.h5", "report.html"):
+        (folder / name).unlink(missing_ok=True)
+    for part in ("snapshots", "figures"):
+        for file in (folder / part).glob("*"):
+            file.unlink()

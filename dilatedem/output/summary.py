@@ -15,7 +15,7 @@ RECORDED_LIBRARIES = ("numpy", "numba", "llvmlite", "scipy", "shapely", "h5py", 
 
 
 def write_summary(path, summary: dict) -> None:
-    """Replace `path` by `summary` (nested dicts, lists, numbers, arrays, text), atomically.
+    """Replace `path` by `summary` (nested dicts, lists, numbers, arrays, text, or functions that return such), atomically.
 
     Numbers that JSON has no word for (nan, infinity) become null. Raises ValueError for a status that is
     not in STATUSES.
@@ -49,6 +49,8 @@ def _plain(value):
         return [_plain(entry) for entry in value]
     if isinstance(value, np.ndarray | np.generic):
         return _plain(value.tolist())
+    if callable(value):
+        return _plain(value())
     if isinstance(value, float):
         return value if math.isfinite(value) else None
     if value is None or isinstance(value, bool | int | str):

@@ -1,5 +1,7 @@
 """Windows of forces.csv: when they end, and what becomes of those that have ended, many at once."""
 
+from typing import NamedTuple
+
 import numpy as np
 
 from dilatedem.output.schedule import Schedule
@@ -26,22 +28,25 @@ def end_open_window(windows: Windows, loads: Loads, step: int) -> None:
         loads.steps[0] = 0
 
 
-def work_up(windows: Windows, names: list[str], dt: float, table: Table, peaks: dict[str, dict]) -> None:
-    """Append the windows that wait to forces.csv and to the headline loads, structure -> figures; none waits afterwards.
+class Ended(NamedTuple):
+    """What forces.csv says of n windows that have ended on s structures."""
+
+    times: list[float]  # (n,) s
+    numbers: np.ndarray  # (n, s, 12) columns of forces.csv, without time and structure
+
+
+def work_up(windows: Windows, names: list[str], dt: float, peaks: dict[str, dict]) -> Ended | None:
+    """Bring the windows that wait into the headline loads, structure -> figures; none waits afterwards.
 
     names: of the structures, in order; dt: time step [s]. Worked up among many a window takes 3 us, on its own 11: NumPy takes as
-    long for a number as for a hundred.
+    long for a number as for a hundred. Returns what is left to be written, in copies.
     """
     count = int(windows.count[0])
     if count == 0:
-        return
+        return None
     times, steps = [step * dt for step in windows.due[:count].tolist()], windows.steps[:count]
     mean, contacts = windows.sum[:count] / steps[:, None, None], windows.contacts[:count] / steps[:, None]
     numbers = np.concatenate([mean, windows.extreme[:count], contacts[:, :, None]], axis=2)
-    table.append_columns([
-        [time_s for time_s in times for _ in names], names * count,
-        *np.moveaxis(numbers, 2, 0).reshape(numbers.shape[2], -1).tolist(),
-    ])  # fmt: skip
     for s, name in enumerate(names):
         peak = peaks.setdefault(name, {
             "fx_max_N": 0.0, "fx_min_N": 0.0, "fy_max_N": 0.0, "fy_min_N": 0.0, "fh_max_N": 0.0, "fh_max_time_s": 0.0,
@@ -49,6 +54,15 @@ def work_up(windows: Windows, names: list[str], dt: float, table: Table, peaks: 
         })  # fmt: skip
         _note(peak, times, windows.extreme[:count, s], windows.sum[:count, s], int(steps.sum()))
     windows.count[0] = 0
+    return Ended(times, numbers)
+
+
+def append(ended: Ended, names: list[str], table: Table) -> None:
+    """Append the rows of windows on structures of these names to forces.csv."""
+    table.append_columns([
+        [time_s for time_s in ended.times for _ in names], names * len(ended.times),
+        *np.moveaxis(ended.numbers, 2, 0).reshape(ended.numbers.shape[2], -1).tolist(),
+    ])  # fmt: skip
 
 
 def _note(peak: dict, times: list[float], extreme: np.ndarray, window_sum: np.ndarray, steps: int) -> None:
@@ -63,3 +77,12 @@ def _note(peak: dict, times: list[float], extreme: np.ndarray, window_sum: np.nd
         peak["fx_sum"] += fx
         peak["fy_sum"] += fy
     peak["steps"] += steps
+
+
+def headline_loads(peak: dict | None) -> dict:
+    """What summary.json says of one structure; None = it has no window yet."""
+    names = ("fx_max_N", "fx_min_N", "fy_max_N", "fy_min_N", "fh_max_N", "fh_max_time_s")
+    if peak is None:
+        return dict.fromkeys((*names, "fx_mean_N", "fy_mean_N"), 0.0)
+    steps = max(peak["steps"], 1)
+    return {name: peak[name] for name in names} | {"fx_mean_N": peak["fx_sum"] / steps, "fy_mean_N": peak["fy_sum"] / steps}

@@ -86,8 +86,13 @@ def empty_pairs(capacity: int) -> Pairs:
 def _aligned(rows: int, columns: int) -> np.ndarray:
     """Zeros (rows, columns) that begin where a cache line does."""
     memory = np.zeros(rows * columns + _LINE)
-    start = -(memory.ctypes.data // memory.itemsize) % _LINE
+    start = _start(memory)
     return memory[start : start + rows * columns].reshape(rows, columns)
+
+
+def _start(memory: np.ndarray) -> int:
+    """The first number of `memory` that begins a cache line."""
+    return -(memory.__array_interface__["data"][0] // memory.itemsize) % _LINE
 
 
 def grown(pairs: Pairs, capacity: int) -> Pairs:
@@ -135,6 +140,10 @@ def unpacked(copy: PackedPairs, capacity: int) -> Pairs:
 
 
 def _rows(pairs: Pairs) -> np.ndarray:
-    """(m, columns) the rows of memory whose columns the other fields are; `rounds` is the first."""
-    row, number = pairs.rounds.strides[0], pairs.rounds.itemsize
-    return np.lib.stride_tricks.as_strided(pairs.rounds, (len(pairs.rounds), row // number), (row, number))
+    """(m, columns) the rows of memory whose columns the other fields are: what `_aligned` made, as whole numbers.
+
+    `as_strided` from the first column on would not need the memory's start, but takes longer than copying all rows.
+    """
+    memory, columns = pairs.rounds.base, pairs.rounds.strides[0] // pairs.rounds.itemsize
+    start = _start(memory)
+    return memory[start : start + len(pairs.rounds) * columns].view(np.int64).reshape(-1, columns)

@@ -86,7 +86,7 @@ def test_ctrl_c_saves_the_state_and_resume_completes_the_run(crowded, tmp_path):
 def test_a_killed_run_resumes_from_its_last_checkpoint(crowded, tmp_path):
     out = tmp_path / "crowded"
     process = started(CASES / "crowded.toml", out)
-    time.sleep(0.2)  # rows and snapshots past the checkpoint, which the resumed run writes again
+    time.sleep(0.1)  # rows and snapshots past the checkpoint, which the resumed run writes again
     process.kill()
     process.communicate()
     assert process.returncode == -signal.SIGKILL

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from dilatedem.output.tables import FORCES_COLUMNS, Table
-from dilatedem.output.windows import end_open_window, work_up
+from dilatedem.output.windows import append, end_open_window, work_up
 from dilatedem.state.record import WINDOWS, empty_loads, no_windows
 
 DT = 1e-3  # s
@@ -25,9 +25,11 @@ def kept(names: list[str], count: int, path: Path, every: int) -> dict[str, dict
             end_open_window(windows, loads, STEPS * number)
             assert loads.steps[0] == 0  # the next window is open
             if number % every == 0 or windows.count[0] == WINDOWS:
-                work_up(windows, names, DT, table, peaks)
-        work_up(windows, names, DT, table, peaks)
-        work_up(windows, names, DT, table, peaks)  # nothing is left
+                append(work_up(windows, names, DT, peaks), names, table)
+        ended = work_up(windows, names, DT, peaks)
+        if ended:
+            append(ended, names, table)
+        assert work_up(windows, names, DT, peaks) is None  # nothing is left
     return peaks
 
 
@@ -57,7 +59,7 @@ def test_means_are_over_the_steps_of_each_window(tmp_path):
         for steps, end in ((4, 4), (2, 6)):  # the last window of a run may be shorter
             loads.steps[0], loads.window_sum[:], loads.contact_sum[:] = steps, 8.0, 6
             end_open_window(windows, loads, end)
-        work_up(windows, ["pile"], DT, table, peaks)
+        append(work_up(windows, ["pile"], DT, peaks), ["pile"], table)
     rows = list(csv.DictReader((tmp_path / "forces.csv").open()))
     assert [(row["time_s"], row["fx_N"], row["mz_Nm"], row["contacts"]) for row in rows] == [
         ("0.004", "2", "2", "1.5"), ("0.006", "4", "4", "3"),
