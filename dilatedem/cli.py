@@ -5,6 +5,7 @@ Whatever a command needs is imported when it runs, so that `--help` answers at o
 
 import errno
 import functools
+import os
 import sys
 from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
@@ -71,7 +72,10 @@ def known_faults(command: Callable) -> Callable:
         except OSError as error:
             if error.errno not in _FAULTS_OF_THE_DISK:
                 raise
-            _end(f"{error.filename or 'output'}: {error.strerror}", _FAULTS_OF_THE_DISK[error.errno])
+            code = _FAULTS_OF_THE_DISK[error.errno]
+            way_on = "; make room and go on with --resume" if code == EXIT_STOPPED and command.__name__ == "run" else ""
+            # not error.strerror: HDF5 puts a paragraph there
+            _end(f"{error.filename or 'output'}: {os.strerror(error.errno)}{way_on}", code)
 
     return wrapped
 

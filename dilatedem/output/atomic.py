@@ -22,8 +22,10 @@ def replacing(path, *, durable: bool = False) -> Iterator[Path]:
         if durable:
             _force_to_disk(temporary)
         os.replace(temporary, path)
-    except BaseException:
+    except BaseException as fault:
         temporary.unlink(missing_ok=True)
+        if isinstance(fault, OSError) and fault.errno and not fault.filename:  # HDF5 names none
+            fault.filename = str(path)
         raise
 
 

@@ -73,6 +73,7 @@ def test_run_from_standard_input_quietly(simulation, monkeypatch):
         (KeyboardInterrupt(), 130),
         (PermissionError(13, "Permission denied", "runs/pile"), 2),
         (OSError(28, "No space left on device", "runs/pile/run.h5"), 3),
+        (OSError(28, "a paragraph\nby HDF5"), 3),
     ],
 )
 def test_known_faults_end_with_their_code_and_no_traceback(simulation, fault, code):
@@ -82,6 +83,12 @@ def test_known_faults_end_with_their_code_and_no_traceback(simulation, fault, co
     assert result.stdout == ""
     assert "Traceback" not in result.stderr
     assert len(result.stderr.splitlines()) == 1
+
+
+def test_a_full_disk_is_told_with_the_file_and_the_way_on(simulation):
+    simulation.fault = OSError(28, "a paragraph\nby HDF5", "runs/pile/restart.h5")
+    found = invoke("run", PILE).stderr
+    assert found == "runs/pile/restart.h5: No space left on device; make room and go on with --resume\n"
 
 
 def test_an_unknown_fault_keeps_its_traceback(simulation):
