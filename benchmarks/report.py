@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+from benchmarks.others import PAPER_STAGE
 from benchmarks.plots import COST, STAGE
 from benchmarks.results import grouped
 from benchmarks.scenes import MODELS, SCENES
@@ -131,8 +132,24 @@ def _by_stage(rows: list[dict]) -> str:
     return "\n\n".join(["## Where the time goes", words, f"![cost of a floe-step by stage]({STAGE})", _table(header, lines)])
 
 
+def _paper(others: list[dict]) -> str:
+    """The paper's case by stage; nothing where it was not measured."""
+    values = {other["name"]: other["value"] for other in others}
+    spent = {stage: values[PAPER_STAGE.format(stage)] for stage in STAGES if PAPER_STAGE.format(stage) in values}
+    if not spent:
+        return ""
+    whole = sum(spent.values())
+    words = f"The steps of the paper's case, 100 s of `cases/pile.toml`, take {whole:.2f} s, of which seconds and shares:"
+    lines = [[f"{value:.2f}" for value in spent.values()], [f"{value / whole:.1%}" for value in spent.values()]]
+    return words + "\n\n" + _table(list(spent), lines)
+
+
 def _others(others: list[dict]) -> str:
-    lines = [[other["note"], f"{_number(other['value'])} {other['unit']}", other["date"].replace("T", " ")] for other in others]
+    stages = {PAPER_STAGE.format(stage) for stage in STAGES}
+    lines = [
+        [other["note"], f"{_number(other['value'])} {other['unit']}", other["date"].replace("T", " ")]
+        for other in others if other["name"] not in stages
+    ]  # fmt: skip
     return "## What else a user waits for\n\n" + _table(["", "", "measured"], lines)
 
 
@@ -141,6 +158,8 @@ def page(rows: list[dict], others: list[dict]) -> str:
     parts = [_HEAD]
     if rows:
         parts += [_machine(rows), _targets(rows, others), _against_others(rows), _by_size(rows), _by_stage(rows)]
+    if _paper(others):
+        parts.append(_paper(others))
     if others:
         parts.append(_others(others))
     return "\n\n".join(parts) + "\n"

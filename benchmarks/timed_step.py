@@ -109,13 +109,16 @@ def timed_advance(
     return status
 
 
-def timed(simulation, steps: int) -> tuple[dict[str, float], float]:
-    """Advance a simulation whose pairs have room; returns us a step by stage, less the clock's share, and awake pairs."""
+def timed(simulation, steps: int, *, calls: int = 1) -> tuple[dict[str, float], float]:
+    """Advance a simulation whose pairs have room, in so many calls; returns us a step by stage, less the clock's share, and awake
+    pairs."""
     booked, timespec, evaluations = np.zeros((len(STAGES), 2), np.int64), np.zeros(2, np.int64), simulation.state.clock.evaluations
-    before = int(evaluations[0])
-    status = simulation._call(timed_advance, simulation.dt, simulation.span, steps, booked, timespec)
-    if status != DONE:
-        raise RuntimeError(f"the timed run came back with {status.name}")
+    before, taken = int(evaluations[0]), 0
+    for call in range(1, calls + 1):
+        piece, taken = steps * call // calls - taken, steps * call // calls
+        status = simulation._call(timed_advance, simulation.dt, simulation.span, piece, booked, timespec)
+        if status != DONE:
+            raise RuntimeError(f"the timed run came back with {status.name}")
     cost = clock_cost()
     per_step = {
         stage: max(0.0, total - readings * cost) / steps * 1e-3
