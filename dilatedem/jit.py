@@ -238,6 +238,7 @@ def _turn(folder: Path):
     Numba numbers the files of one kernel by a list that each process reads, adds to and writes: two that add at once would take the
     same number, and one kind of arguments could get the machine code of the other.
     """
+    folder.mkdir(parents=True, exist_ok=True)  # it may have been removed since the program began
     with (folder / LOCK).open("w") as file:
         if fcntl:
             with suppress(OSError):  # there are file systems without locks

@@ -3,6 +3,7 @@
 
 import fcntl
 import re
+import shutil
 import threading
 from pathlib import Path
 
@@ -85,7 +86,6 @@ def test_two_processes_keep_machine_code_one_after_the_other(tmp_path, monkeypat
         return 2.0 * x
 
     folder = Path(doubled.stats.cache_path)
-    folder.mkdir(parents=True, exist_ok=True)
     thread = threading.Thread(target=doubled, args=(1.0,))
     with (folder / LOCK).open("w") as other:
         fcntl.flock(other, fcntl.LOCK_EX)
@@ -94,6 +94,17 @@ def test_two_processes_keep_machine_code_one_after_the_other(tmp_path, monkeypat
         assert thread.is_alive() and not list(folder.glob("*.nb?")), "nothing is written while another process does"
     thread.join()
     assert len(list(folder.glob("*.nbc"))) == 1
+
+
+def test_machine_code_is_kept_though_its_folder_was_removed_meanwhile(tmp_path, monkeypatch):
+    monkeypatch.setattr(numba.config, "CACHE_DIR", str(tmp_path / "cache"))
+
+    @kernel
+    def tripled(x):
+        return 3.0 * x
+
+    shutil.rmtree(tmp_path / "cache")
+    assert tripled(2.0) == 6.0 and list((tmp_path / "cache").rglob("*.nbc"))
 
 
 @rare
