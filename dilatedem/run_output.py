@@ -42,7 +42,7 @@ class Totals:
 
 
 class RunOutput:
-    """The run folder of one simulation, kept up to date from step to step; whole files are written in the background."""
+    """The run folder of one simulation, kept up to date from step to step; a thread in the background writes its files."""
 
     def __init__(self, simulation, out: Path, saved: dict):
         """Go on writing a run from the checkpoint whose meta is `saved`."""
