@@ -10,7 +10,7 @@ from benchmarks.machine import describe
 from benchmarks.scenes import MODELS, SCENES, settled, sized
 from benchmarks.timed_step import STAGES, timed
 from benchmarks.yardstick import coal_step
-from dilatedem.simulation import Simulation
+from dilatedem.run.simulation import Simulation
 from dilatedem.state.clock import Status
 from dilatedem.state.pairs import grown
 

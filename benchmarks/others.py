@@ -25,7 +25,7 @@ import os, time
 from dilatedem import cli
 command = cli.app
 def app():
-    from dilatedem.simulation import Simulation
+    from dilatedem.run.simulation import Simulation
     whole = Simulation.advance
     def first(self, steps, *, dt=None):
         if dt is not None or self.model.floating < 2:
@@ -42,9 +42,9 @@ cli.main()
 #: the paper's case for a while: from the opening of its folder to the end, all that is not `advance` (its replays included) counts
 _FILES = """
 import sys, time
-from dilatedem import simulation
+from dilatedem.run import simulation
 from dilatedem.case.load import load
-from dilatedem.run_output import RunOutput
+from dilatedem.run.output import RunOutput
 from pathlib import Path
 spent = [0.0]
 advance, fresh = simulation.Simulation.advance, RunOutput.fresh
@@ -70,9 +70,9 @@ _PROFILE = """
 import sys
 from benchmarks.timed_step import timed
 from dilatedem.case.load import load
-from dilatedem.simulation import Simulation
+from dilatedem.run.simulation import Simulation
 from dilatedem.state.pairs import grown
-from dilatedem.steps import total_steps
+from dilatedem.run.pace import total_steps
 case = load(sys.argv[1], [])
 simulation = Simulation.of_case(case)
 simulation.state.pairs = grown(simulation.state.pairs, 4 * len(simulation.state.pairs.a))
@@ -190,7 +190,7 @@ def generate() -> list[dict]:
 
 def paper() -> list[dict]:
     """Wall time of the whole paper case as a user runs it, compiled kernels at hand; time of its steps by stage."""
-    _run(["-c", "from dilatedem.simulation import compile_kernels; compile_kernels()"])
+    _run(["-c", "from dilatedem.run.simulation import compile_kernels; compile_kernels()"])
     with tempfile.TemporaryDirectory() as folder:
         _, spent, _ = _run(["-m", "dilatedem.cli", "run", str(PAPER_CASE), "--out", str(Path(folder) / "run"), "--quiet"])
     words = _run(["-c", _PROFILE, str(PAPER_CASE)])[0].split()

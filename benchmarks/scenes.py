@@ -14,7 +14,7 @@ import numpy as np
 
 from benchmarks.tiling import repeated_bodies, repeated_hulls, repeated_shapes, repeated_solids
 from dilatedem.case.schema import Case
-from dilatedem.simulation import PAIRS_PER_BODY, Simulation, State
+from dilatedem.run.simulation import PAIRS_PER_BODY, Simulation, State
 from dilatedem.state.bodies import Bodies
 from dilatedem.state.clock import Status, clock_at_start
 from dilatedem.state.pairs import empty_pairs

@@ -1,6 +1,6 @@
 """The time step with a clock between its stages.
 
-Python's clock cannot be read in compiled code; the C library's can. `timed_advance` repeats `dilatedem.motion.step.advance`
+Python's clock cannot be read in compiled code; the C library's can. `timed_advance` repeats `dilatedem.step.advance.advance`
 stage by stage; tests/performance/test_timed_step.py holds the two together, word by word and bit by bit.
 """
 
@@ -10,13 +10,13 @@ import numpy as np
 from numba import types
 
 from dilatedem.contact.gather import close_tally, end_window, load_structures, record_loads, too_deep
-from dilatedem.contact.neighbours import awake_pairs, find_pairs
+from dilatedem.contact.search.neighbours import awake_pairs, find_pairs
 from dilatedem.jit import device, kernel
 from dilatedem.motion.energy import book_energies
 from dilatedem.motion.paces import foresee
-from dilatedem.motion.stages import collide_pairs, complete_spins, drift_bodies, load_and_kick, longest_path, surprised
-from dilatedem.motion.step import DONE, PAIRS_FULL, TOO_DEEP, TOO_FAST
 from dilatedem.motion.timestep import assembled_frequency
+from dilatedem.step.advance import DONE, PAIRS_FULL, TOO_DEEP, TOO_FAST
+from dilatedem.step.blocks import collide_pairs, complete_spins, drift_bodies, load_and_kick, longest_path, surprised
 
 #: stages in the order of the step; `booked` of `timed_advance` has a row for each
 STAGES = ("search", "foresee", "drift", "wake", "collide", "float", "record", "idle")

@@ -131,7 +131,7 @@ def run(
         raise CaseError("give either --resume or --overwrite, not both")
     folder = out or _default_out(case)
     loaded = load(case, overrides or ())
-    from dilatedem import simulation  # after the case: a wrong key is answered without loading the kernels
+    from dilatedem.run import simulation  # after the case: a wrong key is answered without loading the kernels
 
     simulation.run(loaded, folder, threads=threads, resume=resume, overwrite=overwrite, quiet=quiet)
     if not quiet:
@@ -166,7 +166,7 @@ def check(case: CaseArgument, overrides: SetOption = None) -> None:
     from dilatedem.case.load import load
 
     loaded = load(case, overrides or ())
-    from dilatedem import simulation  # after the case: a wrong key is answered without loading the kernels
+    from dilatedem.run import simulation  # after the case: a wrong key is answered without loading the kernels
 
     _print_pairs(simulation.check(loaded))
 

@@ -7,12 +7,12 @@ from pathlib import Path
 import numpy as np
 
 from dilatedem.case.schema import Case
-from dilatedem.composition import Scene, compose
 from dilatedem.errors import CaseError
 from dilatedem.output.atomic import replacing
 from dilatedem.output.folder import holds_run
 from dilatedem.output.summary import write_json
 from dilatedem.output.vtu import write_shapes
+from dilatedem.scene.place import Scene, compose
 
 SIZE_MAP = "viridis"
 

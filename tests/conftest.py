@@ -8,8 +8,8 @@ CASES = Path(__file__).parent / "cases"
 
 
 def _completed_run(tmp_path_factory, name: str) -> Path:
-    from dilatedem import simulation
     from dilatedem.case.load import load
+    from dilatedem.run import simulation
 
     return simulation.run(load(CASES / f"{name}.toml"), tmp_path_factory.mktemp("runs") / name, quiet=True)
 

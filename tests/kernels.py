@@ -4,7 +4,6 @@ from math import sqrt
 
 import numpy as np
 
-from dilatedem.contact.closest import closest_points
 from dilatedem.contact.collide import separation
 from dilatedem.contact.consistent.cap import CORNERS, corner_of, facing, lay_sides, nearest, overhang
 from dilatedem.contact.consistent.face import press_face
@@ -14,7 +13,8 @@ from dilatedem.contact.consistent.line import line_energy, press_edge
 from dilatedem.contact.consistent.point import elliptic, press_vertex
 from dilatedem.contact.consistent.rim import strongest_rim
 from dilatedem.contact.friction import carried_over, rescaled, slide, viscous_share
-from dilatedem.contact.patch import contact_patch
+from dilatedem.contact.liu2015.patch import contact_patch
+from dilatedem.contact.search.closest import closest_points
 from dilatedem.contact.turning import turn_shape
 from dilatedem.jit import device, kernel
 from dilatedem.numerics.vector import store

@@ -2,11 +2,11 @@
 
 from math import sqrt
 
-from dilatedem.contact.closest import closest_points, farthest_vertex
 from dilatedem.contact.consistent.press import press_consistent
 from dilatedem.contact.friction import carried_over, length, rescaled, slide, viscous_share
 from dilatedem.contact.kinematics import relative_velocity
-from dilatedem.contact.liu2015 import press_liu2015
+from dilatedem.contact.liu2015.press import press_liu2015
+from dilatedem.contact.search.closest import closest_points, farthest_vertex
 from dilatedem.jit import by_type, device, item
 from dilatedem.numerics.vector import accumulate, along, dot, load, norm, scale, store, sub
 from dilatedem.state.setting import ConsistentSetting, ContactModel

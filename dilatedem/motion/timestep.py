@@ -10,7 +10,7 @@ import numpy as np
 
 from dilatedem.contact.consistent.line import line_compliance
 from dilatedem.contact.kinematics import mobility
-from dilatedem.contact.liu2015 import BETA
+from dilatedem.contact.liu2015.press import BETA
 from dilatedem.jit import device
 from dilatedem.numerics.blocks import take
 from dilatedem.numerics.vector import load

@@ -15,7 +15,7 @@ from numba.core.registry import CPUDispatcher
 import dilatedem
 from dilatedem.jit import Alone, Team, by_type, device, is_cached, kernel
 
-KERNEL_PACKAGES = ("numerics", "contact", "water", "motion")
+KERNEL_PACKAGES = ("numerics", "contact", "water", "motion", "step")
 
 
 def compiled_functions() -> dict[str, CPUDispatcher]:
@@ -30,7 +30,7 @@ def compiled_functions() -> dict[str, CPUDispatcher]:
 
 def test_every_kernel_is_compiled_without_the_runtime_that_allocates():
     functions = compiled_functions()
-    assert len(functions) > 50 and "dilatedem.motion.step.advance" in functions
+    assert len(functions) > 50 and "dilatedem.step.advance.advance" in functions
     allocating = [name for name, function in functions.items() if function.targetoptions.get("_nrt", True)]
     assert not allocating, "compile them by dilatedem.jit: kernel, device, item or shared_loop"
 
@@ -54,7 +54,7 @@ def test_a_kernel_that_allocates_does_not_compile():
 @pytest.mark.parametrize("before", ["", "import numba; ", "import numba.core.registry; "])
 def test_compiled_code_lies_in_the_folder_of_its_sources_whoever_imports_numba_first(before, tmp_path):
     """Beside the sources it would outlive a change in what a kernel calls, and give the answers of yesterday."""
-    program = f"{before}from dilatedem import jit; from dilatedem.motion.step import advance; print(advance.stats.cache_path)"
+    program = f"{before}from dilatedem import jit; from dilatedem.step.advance import advance; print(advance.stats.cache_path)"
     environment = {name: value for name, value in os.environ.items() if name != "NUMBA_CACHE_DIR"}
     environment |= {"XDG_CACHE_HOME": str(tmp_path), "PYTHONPATH": str(Path(dilatedem.__path__[0]).parent)}
     told = subprocess.run([sys.executable, "-c", program], env=environment, capture_output=True, text=True, check=True)

@@ -13,10 +13,10 @@ import pytest
 
 from dilatedem.case.load import load
 from dilatedem.jit import Team
-from dilatedem.motion.stages import _collide_shared, _drift_shared, _load_and_kick_shared
-from dilatedem.motion.step import advance
-from dilatedem.simulation import Simulation
+from dilatedem.run.simulation import Simulation
 from dilatedem.state.clock import Status
+from dilatedem.step.advance import advance
+from dilatedem.step.blocks import _collide_shared, _drift_shared, _load_and_kick_shared
 
 CROWDED = Path(__file__).parents[1] / "cases" / "crowded.toml"
 

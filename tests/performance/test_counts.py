@@ -11,18 +11,18 @@ from pathlib import Path
 import pytest
 
 from benchmarks.scenes import MODELS, SCENES, scene_simulation
-from dilatedem.motion.step import advance
 from dilatedem.state.clock import Status
+from dilatedem.step.advance import advance
 
 STEPS = 1000
 
 #: what is counted, and what to look at where it has grown
 MEANING = {
     "moves": "bodies moved: are bodies busy that nothing can touch (motion/paces.py)?",
-    "evaluations": "pairs evaluated: do pairs sleep too short (`Pairs.wake`, contact/neighbours.py)?",
-    "rounds": "rounds of the search for closest points: are last step's corners still its start (contact/closest.py)?",
-    "rebuilds": "lists of pairs made: is a path overestimated, or SKIN too small (contact/neighbours.py)?",
-    "listed": "pairs in the list: is SKIN too large, or the test for entry too weak (contact/neighbours.py)?",
+    "evaluations": "pairs evaluated: do pairs sleep too short (`Pairs.wake`, contact/search/neighbours.py)?",
+    "rounds": "rounds of the search for closest points: are last step's corners still its start (contact/search/closest.py)?",
+    "rebuilds": "lists of pairs made: is a path overestimated, or SKIN too small (contact/search/neighbours.py)?",
+    "listed": "pairs in the list: is SKIN too large, or the test for entry too weak (contact/search/neighbours.py)?",
 }
 
 #: moves, evaluations, rounds, rebuilds in STEPS steps (that at t = 0 included), and listed pairs at their end

@@ -5,9 +5,9 @@ import pytest
 
 from benchmarks.scenes import SCENES, pitch_of, scene_simulation, tiled, tiles_for
 from benchmarks.tiling import repeated_hulls, repeated_shapes
-from dilatedem.composition import PILE_HALF_LENGTH
 from dilatedem.geometry.polyhedron import convex_hull
 from dilatedem.geometry.shapes import BodyShape, pack_hulls, pack_shapes
+from dilatedem.scene.place import PILE_HALF_LENGTH
 from dilatedem.state.clock import Status
 
 

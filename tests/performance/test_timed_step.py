@@ -10,8 +10,8 @@ import pytest
 from benchmarks import timed_step
 from benchmarks.scenes import scene_simulation
 from benchmarks.timed_step import STAGES, clock_cost, timed, timed_advance
-from dilatedem.motion.step import advance
 from dilatedem.state.clock import Status
+from dilatedem.step.advance import advance
 
 #: what `timed_advance` does besides: look at the clock, count
 EXTRA = {"_now", "_lap"}
@@ -27,7 +27,7 @@ def calls(function) -> list[str]:
 
 def test_the_timed_step_makes_the_calls_of_the_step():
     """A stage that changes nothing in a scene would escape a comparison of states."""
-    assert calls(timed_advance) == calls(advance), "mend benchmarks/timed_step.py after a change of motion/step.py"
+    assert calls(timed_advance) == calls(advance), "mend benchmarks/timed_step.py after a change of step/advance.py"
 
 
 @pytest.mark.parametrize("name", ["jam", "packed"])

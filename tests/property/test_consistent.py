@@ -11,7 +11,7 @@ from scipy.spatial.transform import Rotation
 from dilatedem.case.schema import Case
 from dilatedem.contact.consistent.face import MARGIN
 from dilatedem.geometry.polyhedron import Polyhedron, convex_hull, prism
-from dilatedem.simulation import Simulation
+from dilatedem.run.simulation import Simulation
 from dilatedem.state.clock import Status
 from dilatedem.state.modes import Mode
 from tests.pair_in_place import PairInPlace, Press

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from dilatedem.case.schema import Case
-from dilatedem.simulation import Simulation
+from dilatedem.run.simulation import Simulation
 from tests.pair_in_place import PairInPlace
 from tests.reference.closest_points_qp import closest_points
 from tests.reference.cores import cores

@@ -5,11 +5,11 @@ import pytest
 
 from dilatedem.case.schema import Case
 from dilatedem.jit import Alone
-from dilatedem.motion.step import advance
-from dilatedem.simulation import Simulation
+from dilatedem.run.simulation import Simulation
 from dilatedem.state.pairs import empty_pairs
 from dilatedem.state.record import empty_ledger, empty_tally
 from dilatedem.state.workspace import make_workspace
+from dilatedem.step.advance import advance
 
 
 def open_contacts(pairs) -> dict:

@@ -5,8 +5,8 @@ import json
 import pytest
 from folders import CASES, assert_same_run, dilatedem
 
-from dilatedem import simulation
 from dilatedem.case.load import load
+from dilatedem.run import simulation
 
 
 @pytest.mark.parametrize("name", ["crowded", "mixed"])

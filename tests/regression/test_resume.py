@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 from folders import CASES, assert_same_run, command, dilatedem, environment, saved
 
-from dilatedem import simulation
 from dilatedem.case.load import load
 from dilatedem.errors import CaseError, Interrupted
-from dilatedem.interruption import Interruption
+from dilatedem.run import simulation
+from dilatedem.run.interruption import Interruption
 
 
 class AskedAfter(Interruption):

@@ -35,7 +35,7 @@ def simulation(monkeypatch, tmp_path):
 
     fake.run = run
     fake.check = lambda case: [("floes", 200), ("time step", 5.12345678e-5)]
-    monkeypatch.setitem(sys.modules, "dilatedem.simulation", fake)
+    monkeypatch.setitem(sys.modules, "dilatedem.run.simulation", fake)
     monkeypatch.setattr(dilatedem, "simulation", fake, raising=False)
     return fake
 

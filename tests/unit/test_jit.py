@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 
 from dilatedem.jit import CACHE_LINE, LOCK, device, item, kernel, prange, prefetch, rare, shared_loop
-from dilatedem.motion.stages import PAIR_LINES
 from dilatedem.state.pairs import empty_pairs
+from dilatedem.step.blocks import PAIR_LINES
 
 
 @kernel

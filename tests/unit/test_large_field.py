@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from dilatedem.case.schema import Case
-from dilatedem.composition import build_model, compose, initial_bodies
 from dilatedem.generate import generate
+from dilatedem.scene.place import build_model, compose, initial_bodies
 
 SIZE = 2.8  # m, of a floe
 

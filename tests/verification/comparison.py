@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from dilatedem.case.load import load
-from dilatedem.simulation import Simulation
+from dilatedem.run.simulation import Simulation
 from dilatedem.state.clock import Status
 
 CASES = Path(__file__).parents[2] / "validation" / "closed_forms"

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from dilatedem.simulation import Simulation
+from dilatedem.run.simulation import Simulation
 from dilatedem.state.clock import Status
 
 

@@ -8,7 +8,7 @@ is met to half of the last.
 import numpy as np
 import pytest
 
-from dilatedem.contact.patch import RIM
+from dilatedem.contact.liu2015.patch import RIM
 from dilatedem.state.modes import Mode
 from tests.verification.comparison import Comparison, check, start
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from dilatedem.case.schema import Case
-from dilatedem.simulation import Simulation
+from dilatedem.run.simulation import Simulation
 from dilatedem.state.clock import Status
 
 CHUNK = 400  # steps between two looks

@@ -3,8 +3,8 @@
     probe = Probe(scene("liu2015", CUBE, FLOE))
     answers = probe.at(Poses.at_rest(probe, 100).moved(1, position=...))
 
-Everything is read from a `dilatedem.simulation.Simulation` as a run sees it: force and moments from the bodies' contact loads, the
-energy from the ledger. Every pose is evaluated cold, with no memory of the pose before, unless `warm` asks for it. 40 us per pose.
+Everything is read from a `Simulation` as a run sees it: force and moments from the bodies' contact loads, the energy from the
+ledger. Every pose is evaluated cold, with no memory of the pose before, unless `warm` asks for it. 40 us per pose.
 """
 
 from dataclasses import dataclass
@@ -13,7 +13,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from dilatedem.case.schema import Case
-from dilatedem.simulation import Simulation
+from dilatedem.run.simulation import Simulation
 from dilatedem.state.clock import Status
 
 NO_CONTACT = -1

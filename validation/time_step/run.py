@@ -15,9 +15,9 @@ from pathlib import Path
 import numpy as np
 
 from dilatedem.case.load import load
-from dilatedem.error_check import TAIL, replay
 from dilatedem.output import folder
-from dilatedem.simulation import restored, run
+from dilatedem.run.error_check import TAIL, replay
+from dilatedem.run.simulation import restored, run
 
 HERE = Path(__file__).parent
 RUNS = Path("runs/time_step")

@@ -7,7 +7,7 @@ from scipy.spatial.transform import Rotation
 from dilatedem.case.schema import Case
 from dilatedem.contact.consistent.press import DEEPEST_SHARE
 from dilatedem.geometry.polyhedron import convex_hull
-from dilatedem.simulation import Simulation
+from dilatedem.run.simulation import Simulation
 from dilatedem.state.clock import Status
 from tests.pair_in_place import PairInPlace
 

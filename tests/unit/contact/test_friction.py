@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from dilatedem.case.schema import Case
-from dilatedem.simulation import Simulation
+from dilatedem.run.simulation import Simulation
 from dilatedem.state.clock import Status
 from tests.kernels import carried_spring, rescaled_spring, share_of_dashpot, slid_spring
 

@@ -8,7 +8,7 @@ import pytest
 import shapely
 from scipy.spatial.transform import Rotation
 
-from dilatedem.contact.patch import RIM
+from dilatedem.contact.liu2015.patch import RIM
 from dilatedem.contact.support import PARALLEL
 from dilatedem.geometry.polyhedron import convex_hull, prism
 from dilatedem.state.modes import Mode

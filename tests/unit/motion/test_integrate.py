@@ -5,7 +5,7 @@ import pytest
 
 from dilatedem.case.schema import Case
 from dilatedem.numerics.frames import matrix_from_quaternion
-from dilatedem.simulation import Simulation
+from dilatedem.run.simulation import Simulation
 from dilatedem.state.clock import Status
 
 BOX = [[x, y, z] for x in (-1.4, 1.4) for y in (-0.7, 0.7) for z in (-0.25, 0.25)]

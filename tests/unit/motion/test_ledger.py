@@ -5,7 +5,7 @@ the step.
 import pytest
 
 from dilatedem.case.load import load
-from dilatedem.simulation import Simulation
+from dilatedem.run.simulation import Simulation
 from dilatedem.state.clock import Status
 from tests.verification.comparison import CASES
 

@@ -7,7 +7,7 @@ import pytest
 
 from dilatedem.case.load import load
 from dilatedem.case.schema import Case
-from dilatedem.simulation import Simulation
+from dilatedem.run.simulation import Simulation
 from dilatedem.state.clock import Status
 
 CROWDED = Path(__file__).parents[2] / "cases" / "crowded.toml"

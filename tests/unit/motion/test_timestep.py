@@ -6,7 +6,7 @@ import pytest
 from dilatedem.case.schema import Case
 from dilatedem.errors import CaseError
 from dilatedem.motion.timestep import _worst_mobility, critical_step
-from dilatedem.simulation import Simulation
+from dilatedem.run.simulation import Simulation
 
 SQUARE = [[-1.4, -1.4], [1.4, -1.4], [1.4, 1.4], [-1.4, 1.4]]
 

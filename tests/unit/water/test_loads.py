@@ -5,7 +5,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from dilatedem.case.schema import Case
-from dilatedem.simulation import Simulation
+from dilatedem.run.simulation import Simulation
 from tests.reference.cores import polygon
 from tests.reference.submerged_hull import submerged
 

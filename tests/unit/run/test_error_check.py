@@ -9,20 +9,20 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from dilatedem import simulation
 from dilatedem.case.load import load
 from dilatedem.case.schema import Case
-from dilatedem.error_check import LEAD, TAIL, WINDOW, Watch, check
 from dilatedem.output import checkpoint
 from dilatedem.output.windows import end_open_window
 from dilatedem.post import info, post
-from dilatedem.simulation import Simulation
+from dilatedem.run import simulation
+from dilatedem.run.error_check import LEAD, TAIL, WINDOW, Watch, check
+from dilatedem.run.simulation import Simulation
 from dilatedem.state.bodies import bodies_at_rest
 from dilatedem.state.clock import Status, clock_at_start
 from dilatedem.state.pairs import empty_pairs, in_use, packed, unpacked
 from dilatedem.state.record import empty_loads, no_windows
 
-CASES = Path(__file__).parents[1] / "cases"
+CASES = Path(__file__).parents[2] / "cases"
 PILE = {"kind": "pile", "center": [0.0, 0.0]}
 
 

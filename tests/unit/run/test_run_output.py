@@ -10,13 +10,14 @@ import h5py
 import numpy as np
 import pytest
 
-from dilatedem import run_output, simulation
 from dilatedem.case.load import load
 from dilatedem.output.schedule import Schedule
-from dilatedem.simulation import Simulation
+from dilatedem.run import output as run_output
+from dilatedem.run import simulation
+from dilatedem.run.simulation import Simulation
 from dilatedem.state.clock import Status
 
-CROWDED = Path(__file__).parents[1] / "cases" / "crowded.toml"
+CROWDED = Path(__file__).parents[2] / "cases" / "crowded.toml"
 
 #: the tables hold nine digits
 DIGITS = 1e-8

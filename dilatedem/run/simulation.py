@@ -10,7 +10,16 @@ import numpy as np
 from dilatedem import __version__
 from dilatedem.case import write
 from dilatedem.case.schema import Case
-from dilatedem.composition import (
+from dilatedem.errors import CaseError, Interrupted, SimulationStopped
+from dilatedem.jit import Alone, Team, is_cached, start_threads
+from dilatedem.motion.timestep import critical_step
+from dilatedem.output import checkpoint, folder
+from dilatedem.output.progress import Progress
+from dilatedem.run.error_check import Watch
+from dilatedem.run.interruption import Interruption
+from dilatedem.run.output import RunOutput, Totals
+from dilatedem.run.pace import free_span, time_step, total_steps
+from dilatedem.scene.place import (
     Scene,
     build_model,
     compose,
@@ -18,22 +27,13 @@ from dilatedem.composition import (
     load_map_geometry,
     ordered_structures,
 )
-from dilatedem.error_check import Watch
-from dilatedem.errors import CaseError, Interrupted, SimulationStopped
-from dilatedem.interruption import Interruption
-from dilatedem.jit import Alone, Team, is_cached, start_threads
-from dilatedem.motion.step import advance
-from dilatedem.motion.timestep import critical_step
-from dilatedem.output import checkpoint, folder
-from dilatedem.output.progress import Progress
-from dilatedem.run_output import RunOutput, Totals
 from dilatedem.state.bodies import Bodies
 from dilatedem.state.clock import Clock, Status, clock_at_start
 from dilatedem.state.model import Model
 from dilatedem.state.pairs import Pairs, empty_pairs, grown, in_use
 from dilatedem.state.record import Ledger, Loads, Tally, Windows, empty_ledger, empty_loads, empty_tally, no_windows
 from dilatedem.state.workspace import Cells, Workspace, make_cells, make_workspace
-from dilatedem.steps import free_span, time_step, total_steps
+from dilatedem.step.advance import advance
 
 #: steps between two looks at the keyboard and the progress bar, where no output is due earlier
 LONGEST_CHUNK = 2000

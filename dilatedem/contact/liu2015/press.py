@@ -7,7 +7,7 @@ results, is said in docs/theory.md.
 from math import pi, sqrt
 
 from dilatedem.contact.kinematics import relative_velocity
-from dilatedem.contact.patch import (
+from dilatedem.contact.liu2015.patch import (
     EDGE_CROSSING,
     EDGE_FACE,
     EDGE_PARALLEL,

@@ -7,8 +7,8 @@ confirms them. Cores that intersect are handed to `penetration`.
 
 from math import sqrt
 
-from dilatedem.contact.penetration import core_penetration
-from dilatedem.contact.simplex import closest_on_segment, closest_on_tetrahedron, closest_on_triangle
+from dilatedem.contact.search.penetration import core_penetration
+from dilatedem.contact.search.simplex import closest_on_segment, closest_on_tetrahedron, closest_on_triangle
 from dilatedem.jit import device, item
 from dilatedem.numerics.vector import add, along, dot, load, scale, sub
 

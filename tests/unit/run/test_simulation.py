@@ -7,16 +7,16 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from dilatedem import simulation
 from dilatedem.case.load import load
 from dilatedem.case.schema import Case
 from dilatedem.errors import CaseError, Interrupted, SimulationStopped
-from dilatedem.simulation import Simulation, check
+from dilatedem.run import simulation
+from dilatedem.run.pace import free_span, time_step, total_steps
+from dilatedem.run.simulation import Simulation, check
 from dilatedem.state.clock import Status
 from dilatedem.state.pairs import empty_pairs
-from dilatedem.steps import free_span, time_step, total_steps
 
-CASES = Path(__file__).parents[1] / "cases"
+CASES = Path(__file__).parents[2] / "cases"
 CROWDED = CASES / "crowded.toml"
 
 

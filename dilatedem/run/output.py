@@ -7,9 +7,8 @@ from pathlib import Path
 
 import numpy as np
 
-from dilatedem import __version__, error_check
+from dilatedem import __version__
 from dilatedem.case import write
-from dilatedem.composition import ordered_structures
 from dilatedem.errors import Interrupted
 from dilatedem.geometry.polyhedron import Polyhedron
 from dilatedem.output import checkpoint, folder
@@ -22,6 +21,8 @@ from dilatedem.output.summary import versions, write_summary
 from dilatedem.output.tables import BODIES_COLUMNS, ENERGY_COLUMNS, FORCES_COLUMNS, Table
 from dilatedem.output.vtu import SnapshotWriter, pile_column, plane_plate, wrapped, write_pvd, write_structures
 from dilatedem.output.windows import Ended, append, end_open_window, headline_loads, schedule_windows, work_up
+from dilatedem.run import error_check
+from dilatedem.scene.place import ordered_structures
 from dilatedem.state.record import ANGLE_BINS, HEIGHT_BINS
 
 #: s of wall time after which, at the latest, new rows and snapshots are in the tables and in ice.pvd (or at the next thing due)
