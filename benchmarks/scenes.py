@@ -17,8 +17,9 @@ from dilatedem.case.schema import Case
 from dilatedem.run.simulation import PAIRS_PER_BODY, Simulation, State
 from dilatedem.state.bodies import Bodies
 from dilatedem.state.clock import Status, clock_at_start
+from dilatedem.state.ledger import empty_ledger
+from dilatedem.state.loads import empty_loads
 from dilatedem.state.pairs import empty_pairs
-from dilatedem.state.record import empty_ledger, empty_loads
 
 SCENES = ("drift", "jam", "packed")
 MODELS = ("liu2015", "consistent")

@@ -9,14 +9,15 @@ import time
 import numpy as np
 from numba import types
 
-from dilatedem.contact.gather import close_tally, end_window, load_structures, record_loads, too_deep
 from dilatedem.contact.search.neighbours import awake_pairs, find_pairs
+from dilatedem.contact.tally import close_tally, too_deep
 from dilatedem.jit import device, kernel
 from dilatedem.motion.energy import book_energies
 from dilatedem.motion.paces import foresee
 from dilatedem.motion.timestep import assembled_frequency
 from dilatedem.step.advance import DONE, PAIRS_FULL, TOO_DEEP, TOO_FAST
 from dilatedem.step.blocks import collide_pairs, complete_spins, drift_bodies, load_and_kick, longest_path, surprised
+from dilatedem.structures.record import end_window, load_structures, record_loads
 
 #: stages in the order of the step; `booked` of `timed_advance` has a row for each
 STAGES = ("search", "foresee", "drift", "wake", "collide", "float", "record", "idle")

@@ -18,7 +18,7 @@ from dilatedem.contact.search.closest import closest_points
 from dilatedem.contact.turning import turn_shape
 from dilatedem.jit import device, kernel
 from dilatedem.numerics.vector import store
-from dilatedem.state.workspace import MOST_CORNERS
+from dilatedem.state.storage import MOST_CORNERS
 from dilatedem.water.floating import submerged_polyhedron, submerged_prism
 
 

@@ -11,7 +11,7 @@ from dilatedem.state.bodies import bodies_at_rest
 from dilatedem.state.modes import Mode
 from dilatedem.state.pairs import empty_pairs
 from dilatedem.state.setting import Surroundings
-from dilatedem.state.workspace import MOST_CORNERS
+from dilatedem.state.storage import MOST_CORNERS
 from tests.kernels import distance_of_pair, energy_of_pair, patch_of_pair
 
 

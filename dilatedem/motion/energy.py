@@ -1,4 +1,4 @@
-"""The energies of an instant: with the running sums of `state.record.Ledger` they close the ledger of a run."""
+"""The energies of an instant: with the running sums of `state.ledger.Ledger` they close the ledger of a run."""
 
 from dilatedem.contact.friction import length
 from dilatedem.jit import device

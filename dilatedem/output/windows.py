@@ -7,7 +7,7 @@ import numpy as np
 from dilatedem.output.schedule import Schedule
 from dilatedem.output.tables import Table
 from dilatedem.state.clock import NEVER
-from dilatedem.state.record import WINDOWS, Loads, Windows
+from dilatedem.state.loads import WINDOWS, Loads, Windows
 
 
 def schedule_windows(windows: Windows, schedule: Schedule, step: int) -> int:

@@ -19,8 +19,9 @@ from dilatedem.output import checkpoint
 from dilatedem.output.schedule import Schedule
 from dilatedem.state.bodies import Bodies
 from dilatedem.state.clock import Status, clock_at_start
+from dilatedem.state.ledger import empty_ledger
+from dilatedem.state.loads import Windows, empty_loads
 from dilatedem.state.pairs import PackedPairs, packed, unpacked
-from dilatedem.state.record import Windows, empty_ledger, empty_loads
 
 #: s between two copies of the state: longer ones cost less time, but the replays that begin at them cost more
 WINDOW = 0.25

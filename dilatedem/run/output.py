@@ -23,7 +23,7 @@ from dilatedem.output.vtu import SnapshotWriter, pile_column, plane_plate, wrapp
 from dilatedem.output.windows import Ended, append, end_open_window, headline_loads, schedule_windows, work_up
 from dilatedem.run import error_check
 from dilatedem.scene.place import ordered_structures
-from dilatedem.state.record import ANGLE_BINS, HEIGHT_BINS
+from dilatedem.state.loads import ANGLE_BINS, HEIGHT_BINS
 
 #: s of wall time after which, at the latest, new rows and snapshots are in the tables and in ice.pvd (or at the next thing due)
 REFRESH_S = 1.0

@@ -29,10 +29,11 @@ from dilatedem.scene.place import (
 )
 from dilatedem.state.bodies import Bodies
 from dilatedem.state.clock import Clock, Status, clock_at_start
+from dilatedem.state.ledger import Ledger, empty_ledger
+from dilatedem.state.loads import Loads, Windows, empty_loads, no_windows
 from dilatedem.state.model import Model
 from dilatedem.state.pairs import Pairs, empty_pairs, grown, in_use
-from dilatedem.state.record import Ledger, Loads, Tally, Windows, empty_ledger, empty_loads, empty_tally, no_windows
-from dilatedem.state.workspace import Cells, Workspace, make_cells, make_workspace
+from dilatedem.state.storage import Cells, Tally, Workspace, empty_tally, make_cells, make_workspace
 from dilatedem.step.advance import advance
 
 #: steps between two looks at the keyboard and the progress bar, where no output is due earlier

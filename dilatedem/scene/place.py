@@ -18,7 +18,7 @@ from dilatedem.numerics.frames import matrix_from_quaternion, quaternion_from_ro
 from dilatedem.state.bodies import Bodies, Solids, bodies_at_rest
 from dilatedem.state.model import Model
 from dilatedem.state.setting import ConsistentSetting, ContactModel, ContactSetting, Surroundings
-from dilatedem.state.workspace import MOST_CORNERS
+from dilatedem.state.storage import MOST_CORNERS
 
 Structure = PileStructure | PlaneStructure
 
@@ -299,7 +299,7 @@ def initial_bodies(case: Case, scene: Scene, model: Model) -> Bodies:
 
 
 def load_map_geometry(case: Case, scene: Scene) -> tuple[np.ndarray, np.ndarray]:
-    """map_origin (s, 6) and map_span (s, 3) of `state.record.Loads` for the structures in their order [m]."""
+    """map_origin (s, 6) and map_span (s, 3) of `state.loads.Loads` for the structures in their order [m]."""
     low, high = (factor * case.ice.thickness for factor in MAP_HEIGHTS)
     structures = ordered_structures(scene)
     origin, span = np.zeros((len(structures), 6)), np.zeros((len(structures), 3))

@@ -1,13 +1,14 @@
 """The time step: the whole method on one page."""
 
-from dilatedem.contact.gather import close_tally, end_window, load_structures, record_loads, too_deep
 from dilatedem.contact.search.neighbours import awake_pairs, find_pairs
+from dilatedem.contact.tally import close_tally, too_deep
 from dilatedem.jit import kernel
 from dilatedem.motion.energy import book_energies
 from dilatedem.motion.paces import foresee
 from dilatedem.motion.timestep import assembled_frequency
 from dilatedem.state.clock import Status
 from dilatedem.step.blocks import collide_pairs, complete_spins, drift_bodies, load_and_kick, longest_path, surprised
+from dilatedem.structures.record import end_window, load_structures, record_loads
 
 DONE, PAIRS_FULL, TOO_FAST, TOO_DEEP = int(Status.DONE), int(Status.PAIRS_FULL), int(Status.TOO_FAST), int(Status.TOO_DEEP)
 

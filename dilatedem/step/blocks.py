@@ -5,7 +5,8 @@ on the number of threads. (Writes through a NamedTuple *inside* a prange would b
 """
 
 from dilatedem.contact.collide import collide
-from dilatedem.contact.gather import book_contact, sum_contacts
+from dilatedem.contact.sums import sum_contacts
+from dilatedem.contact.tally import book_contact
 from dilatedem.contact.turning import turn_shape
 from dilatedem.jit import Team, by_type, device, item, prange, prefetch, shared_loop
 from dilatedem.motion.integrate import complete_spin, drift, kick

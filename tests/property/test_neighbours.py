@@ -6,9 +6,9 @@ import pytest
 from dilatedem.case.schema import Case
 from dilatedem.jit import Alone
 from dilatedem.run.simulation import Simulation
+from dilatedem.state.ledger import empty_ledger
 from dilatedem.state.pairs import empty_pairs
-from dilatedem.state.record import empty_ledger, empty_tally
-from dilatedem.state.workspace import make_workspace
+from dilatedem.state.storage import empty_tally, make_workspace
 from dilatedem.step.advance import advance
 
 

@@ -6,7 +6,7 @@ import pytest
 
 from dilatedem.output.tables import FORCES_COLUMNS, Table
 from dilatedem.output.windows import append, end_open_window, work_up
-from dilatedem.state.record import WINDOWS, empty_loads, no_windows
+from dilatedem.state.loads import WINDOWS, empty_loads, no_windows
 
 DT = 1e-3  # s
 STEPS = 10  # of a window

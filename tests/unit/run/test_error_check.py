@@ -19,8 +19,8 @@ from dilatedem.run.error_check import LEAD, TAIL, WINDOW, Watch, check
 from dilatedem.run.simulation import Simulation
 from dilatedem.state.bodies import bodies_at_rest
 from dilatedem.state.clock import Status, clock_at_start
+from dilatedem.state.loads import empty_loads, no_windows
 from dilatedem.state.pairs import empty_pairs, in_use, packed, unpacked
-from dilatedem.state.record import empty_loads, no_windows
 
 CASES = Path(__file__).parents[2] / "cases"
 PILE = {"kind": "pile", "center": [0.0, 0.0]}

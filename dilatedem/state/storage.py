@@ -4,6 +4,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+from dilatedem.state.modes import MODE_COUNT
+
+#: parts of a `Tally`, and the most threads that can share the evaluation of pairs
+PARTS = 32
 #: corners of the largest face that fits into the clipping workspace, after clipping by another
 MOST_CORNERS = 256
 
@@ -38,6 +42,23 @@ class Workspace(NamedTuple):
     hull: np.ndarray  # (threads, h, 4) outer vertices of one body, and their heights
 
 
+class Tally(NamedTuple):
+    """What contacts cost and showed within one call of `advance`, in parts of the list of awake pairs; empty between calls.
+
+    The number of parts is fixed, so that sums do not depend on the number of threads.
+    """
+
+    work: np.ndarray  # (PARTS, 2) pairs evaluated, rounds of their distance searches
+    loss_damping: np.ndarray  # (PARTS,) J
+    loss_friction: np.ndarray  # (PARTS,) J
+    gain_law: np.ndarray  # (PARTS,) J
+    mode_steps: np.ndarray  # (PARTS, 2, MODE_COUNT) and so on as in `Loads`
+    mode_impulse: np.ndarray
+    mode_force: np.ndarray
+    mode_overlap: np.ndarray
+    deep: np.ndarray  # (PARTS,) first pair with an overlap past what the method can mean, -1 = none
+
+
 def make_cells(floating: int) -> Cells:
     most = max(4, int(np.sqrt(4 * floating)) + 2)
     return Cells(most, np.zeros(most * most + 2, np.int64), np.zeros(floating, np.int64), np.zeros(floating, np.int64))
@@ -65,4 +86,11 @@ def make_workspace(shapes, hulls, capacity: int, threads: int) -> Workspace:
         clip=np.zeros((threads, 6, MOST_CORNERS, 3)),
         wet=np.zeros((len(hulls.prism), 5)),
         hull=np.zeros((threads, most, 4)),
+    )
+
+
+def empty_tally() -> Tally:
+    per_mode = (np.zeros((PARTS, 2, MODE_COUNT)) for _ in range(4))
+    return Tally(
+        np.zeros((PARTS, 2), np.int64), np.zeros(PARTS), np.zeros(PARTS), np.zeros(PARTS), *per_mode, np.full(PARTS, -1, np.int64)
     )

@@ -1,4 +1,4 @@
-"""Running sums of a run: the energy ledger, loads on structures, contact statistics."""
+"""Loads on structures: the open window, maps since the start, windows that wait to be written."""
 
 from typing import NamedTuple
 
@@ -11,37 +11,6 @@ ANGLE_BINS = 72  # of a load map: 5 degrees each
 HEIGHT_BINS = 20
 #: windows of loads that wait to be written, at most
 WINDOWS = 1000
-#: parts of a `Tally`, and the most threads that can share the evaluation of pairs
-PARTS = 32
-
-
-class Ledger(NamedTuple):
-    """Energies, J, each an array (1,): what came in or went out since the start, and what is stored where `advance` came back."""
-
-    loss_damping: np.ndarray
-    loss_friction: np.ndarray
-    gain_law: np.ndarray
-    kinetic: np.ndarray
-    gravity: np.ndarray
-    buoyancy: np.ndarray
-    elastic: np.ndarray
-
-
-class Tally(NamedTuple):
-    """What contacts cost and showed within one call of `advance`, in parts of the list of awake pairs; empty between calls.
-
-    The number of parts is fixed, so that sums do not depend on the number of threads.
-    """
-
-    work: np.ndarray  # (PARTS, 2) pairs evaluated, rounds of their distance searches
-    loss_damping: np.ndarray  # (PARTS,) J
-    loss_friction: np.ndarray  # (PARTS,) J
-    gain_law: np.ndarray  # (PARTS,) J
-    mode_steps: np.ndarray  # (PARTS, 2, MODE_COUNT) and so on as in `Loads`
-    mode_impulse: np.ndarray
-    mode_force: np.ndarray
-    mode_overlap: np.ndarray
-    deep: np.ndarray  # (PARTS,) first pair with an overlap past what the method can mean, -1 = none
 
 
 class Loads(NamedTuple):
@@ -74,17 +43,6 @@ class Windows(NamedTuple):
     sum: np.ndarray  # (WINDOWS, s, 6) and so on as in `Loads`
     extreme: np.ndarray  # (WINDOWS, s, 5)
     contacts: np.ndarray  # (WINDOWS, s)
-
-
-def empty_ledger() -> Ledger:
-    return Ledger(*(np.zeros(1) for _ in Ledger._fields))
-
-
-def empty_tally() -> Tally:
-    per_mode = (np.zeros((PARTS, 2, MODE_COUNT)) for _ in range(4))
-    return Tally(
-        np.zeros((PARTS, 2), np.int64), np.zeros(PARTS), np.zeros(PARTS), np.zeros(PARTS), *per_mode, np.full(PARTS, -1, np.int64)
-    )
 
 
 def empty_loads(map_origin: np.ndarray, map_span: np.ndarray) -> Loads:

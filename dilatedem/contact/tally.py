@@ -1,0 +1,71 @@
+"""What contacts cost and showed: booked pair by pair in a fixed number of parts, so that sums do not depend on the threads."""
+
+from dilatedem.contact.collide import CONSISTENT
+from dilatedem.contact.consistent.press import DEEPEST_SHARE
+from dilatedem.jit import device, item
+
+#: overlap, in units of the smaller dilated radius of the two, past which the run stops
+DEEPEST = 4.0
+
+
+@item
+def book_contact(k, part, dt, floating, shapes, contact, pairs, tally):
+    """Add what pair k cost and showed in this step to row `part` of the tally (`state.storage.Tally`)."""
+    tally.work[part, 0] += 1
+    tally.work[part, 1] += pairs.rounds[k]
+    tally.loss_damping[part] += pairs.loss_damping[k]
+    tally.loss_friction[part] += pairs.loss_friction[k]
+    tally.gain_law[part] += pairs.gain_law[k]
+    if pairs.overlap[k] <= 0.0:
+        # what the end of a contact cost is booked once
+        pairs.loss_friction[k] = pairs.loss_damping[k] = pairs.gain_law[k] = 0.0
+        return
+    on_structure, mode = 1 if pairs.b[k] >= floating else 0, pairs.mode[k]
+    tally.mode_steps[part, on_structure, mode] += 1.0
+    tally.mode_impulse[part, on_structure, mode] += pairs.normal_force[k] * dt
+    tally.mode_force[part, on_structure, mode] = max(tally.mode_force[part, on_structure, mode], pairs.normal_force[k])
+    tally.mode_overlap[part, on_structure, mode] = max(tally.mode_overlap[part, on_structure, mode], pairs.overlap[k])
+    if pairs.overlap[k] > deepest_overlap(pairs.a[k], pairs.b[k], shapes, contact) and tally.deep[part] < 0:
+        tally.deep[part] = k
+
+
+@device
+def close_tally(tally, ledger, loads, clock):
+    """Bring a tally to the ledger, the contact statistics and the counts of work, part by part, and empty it."""
+    for part in range(len(tally.deep)):
+        clock.evaluations[0] += tally.work[part, 0]
+        clock.rounds[0] += tally.work[part, 1]
+        tally.work[part, 0] = tally.work[part, 1] = 0
+        ledger.loss_damping[0] += tally.loss_damping[part]
+        ledger.loss_friction[0] += tally.loss_friction[part]
+        ledger.gain_law[0] += tally.gain_law[part]
+        tally.loss_damping[part] = tally.loss_friction[part] = tally.gain_law[part] = 0.0
+        for s in range(2):
+            for mode in range(tally.mode_steps.shape[2]):
+                loads.mode_steps[s, mode] += tally.mode_steps[part, s, mode]
+                loads.mode_impulse[s, mode] += tally.mode_impulse[part, s, mode]
+                loads.mode_force[s, mode] = max(loads.mode_force[s, mode], tally.mode_force[part, s, mode])
+                loads.mode_overlap[s, mode] = max(loads.mode_overlap[s, mode], tally.mode_overlap[part, s, mode])
+                tally.mode_steps[part, s, mode] = tally.mode_impulse[part, s, mode] = 0.0
+                tally.mode_force[part, s, mode] = tally.mode_overlap[part, s, mode] = 0.0
+
+
+@device
+def too_deep(tally, pairs, clock):
+    """Whether some overlap is past what the method can mean; its bodies go to `clock`."""
+    for part in range(len(tally.deep)):
+        k = tally.deep[part]
+        if k >= 0:
+            clock.culprit[0], clock.culprit[1] = pairs.a[k], pairs.b[k]
+            clock.measure[0] = pairs.overlap[k]
+            return True
+    return False
+
+
+@item
+def deepest_overlap(a, b, shapes, contact):
+    """Overlap [m] past which rounded edges mean nothing any more."""
+    smaller = shapes.radius[a] if shapes.kind[b] != 0 else min(shapes.radius[a], shapes.radius[b])
+    if contact.model == CONSISTENT:
+        return min(DEEPEST * smaller, DEEPEST_SHARE * (shapes.radius[a] + shapes.radius[b]))
+    return DEEPEST * smaller

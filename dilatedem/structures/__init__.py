@@ -1,0 +1,1 @@
+"""What the ice meets: one file a kind of structure, and the record of its loads."""
