@@ -12,7 +12,14 @@ from pathlib import Path
 
 import numpy as np
 
-from benchmarks.tiling import repeated_bodies, repeated_hulls, repeated_shapes, repeated_solids
+from benchmarks.tiling import (
+    repeated_bodies,
+    repeated_charts,
+    repeated_hulls,
+    repeated_shapes,
+    repeated_solids,
+    repeated_structures,
+)
 from dilatedem.case.schema import Case
 from dilatedem.run.simulation import PAIRS_PER_BODY, Simulation, State
 from dilatedem.state.bodies import Bodies
@@ -91,18 +98,18 @@ def tiled(tile: Simulation, along_x: int, along_y: int, *, threads: int = 1) -> 
     So the work per floe is that of the scene itself, and what is left of a difference is memory and search.
     """
     copies, floating = along_x * along_y, tile.model.floating
+    steps = np.indices((along_x, along_y)).reshape(2, -1).T * pitch_of(tile)
+    moves = np.column_stack([steps - steps.mean(axis=0), np.zeros(copies)])
     model = tile.model._replace(
         floating=copies * floating,
         shapes=repeated_shapes(tile.model.shapes, floating, copies),
         hulls=repeated_hulls(tile.model.hulls, copies),
         solids=repeated_solids(tile.model.solids, floating, copies),
+        structure_of=repeated_structures(tile.model.structure_of, floating, copies),
+        charts=repeated_charts(tile.model.charts, moves),
     )
-    steps = np.indices((along_x, along_y)).reshape(2, -1).T * pitch_of(tile)
-    moves = np.column_stack([steps - steps.mean(axis=0), np.zeros(copies)])
     bodies: Bodies = repeated_bodies(tile.state.bodies, floating, moves)
-    origin = np.tile(tile.state.loads.map_origin, (copies, 1))
-    origin[:, :2] += np.repeat(moves[:, :2], len(tile.state.loads.map_origin), axis=0)
-    loads = empty_loads(origin, np.tile(tile.state.loads.map_span, (copies, 1)))
+    loads = empty_loads(len(model.charts.center))
     pairs = empty_pairs(PAIRS_PER_BODY * len(bodies.path) + 64)
     state = State(bodies, pairs, empty_ledger(), loads, clock_at_start(), type(tile.state.totals)())
     return replace(tile, model=model, state=state, threads=threads)

@@ -7,11 +7,13 @@ import numpy as np
 
 from dilatedem.geometry.shapes import Hulls, Shapes
 from dilatedem.state.bodies import Bodies, Solids
+from dilatedem.state.charts import Charts
 
 #: what the rows of a packed array belong to; of the names in `_start` the rows that they count
 ROWS = {
-    "kind": "body", "radius": "body", "reach": "body", "plane_normal": "body", "prism": "body", "plan": "body", "height": "body",
-    "effective_radius": "body", "vertex_start": "body", "face_start": "body", "neighbour_start": "vertex", "loop_start": "face",
+    "kind": "body", "radius": "body", "reach": "body", "plan_reach": "body", "plane_normal": "body", "prism": "body",
+    "plan": "body", "height": "body", "effective_radius": "body",
+    "vertex_start": "body", "face_start": "body", "neighbour_start": "vertex", "loop_start": "face",
     "vertex": "vertex", "face_normal": "face", "neighbour": "neighbour", "loop": "loop",
 }  # fmt: skip
 #: arrays that hold numbers of vertices
@@ -72,3 +74,20 @@ def repeated_bodies(bodies: Bodies, floating: int, moves: np.ndarray) -> Bodies:
     shifts = np.concatenate([np.repeat(moves, floating, axis=0), np.repeat(moves, structures, axis=0)])
     repeated.position[:] += shifts
     return repeated
+
+
+def repeated_structures(structure_of: np.ndarray, floating: int, copies: int) -> np.ndarray:
+    """The structure that each body of `copies` scenes belongs to."""
+    own, count = structure_of[floating:], int(structure_of.max(initial=-1)) + 1
+    moved = [own + turn * count for turn in range(copies)]
+    return np.concatenate([np.full(copies * floating, -1), *moved]).astype(structure_of.dtype)
+
+
+def repeated_charts(charts: Charts, moves: np.ndarray) -> Charts:
+    """Charts of one scene per row of moves (n, 3) [m], shifted by it."""
+    copies, structures = len(moves), len(charts.center)
+    corners = np.diff(charts.outline_start)
+    repeated = {name: np.concatenate([array] * copies) for name, array in charts._asdict().items() if name != "outline_start"}
+    for name in ("center", "origin"):
+        repeated[name] = repeated[name] + np.repeat(moves, structures, axis=0)
+    return Charts(**repeated, outline_start=np.concatenate([[0], np.cumsum(np.tile(corners, copies))]).astype(np.int64))

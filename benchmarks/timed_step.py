@@ -84,13 +84,13 @@ def timed_advance(
             t = _lap(booked, DRIFT, timespec, t)
             clock.step[0] += 1
             clock.moves[0] += busy
-            awake, at_structure = awake_pairs(near, model.floating, bodies, pairs, workspace)
+            awake, at_structure = awake_pairs(near, model.structure_of, bodies, pairs, workspace)
             t = _lap(booked, WAKE, timespec, t)
             collide_pairs(team, awake, dt, model, bodies, pairs, workspace, tally)
             t = _lap(booked, COLLIDE, timespec, t)
             load_and_kick(team, workspace.busy, busy, awake, dt, model, bodies, pairs, workspace)
             t = _lap(booked, FLOAT, timespec, t)
-            load_structures(at_structure, dt, model.floating, bodies, pairs, workspace, loads)
+            load_structures(at_structure, dt, model.structure_of, model.charts, bodies, pairs, workspace, loads)
             record_loads(loads)
             end_window(clock.step[0], loads, windows)
             if too_deep(tally, pairs, clock):

@@ -8,8 +8,8 @@ from typing import Any
 
 from pydantic.fields import FieldInfo
 
-from dilatedem.case.keys import Table
 from dilatedem.case.schema import STRUCTURES, TABLES, Body, Case, json_schema
+from dilatedem.keys import Table
 
 PAGE = Path("docs", "case-file.md")
 

@@ -4,11 +4,12 @@ The docs (`docs/case-file.md`) and `dilatedem schema` are generated from this fi
 a case does not change once it was read.
 """
 
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, Union
 
 from pydantic import Field, model_validator
 
-from dilatedem.case.keys import (
+from dilatedem.case.bodies import Body
+from dilatedem.keys import (
     LARGEST_INTEGER,
     Boundary,
     Fault,
@@ -23,7 +24,7 @@ from dilatedem.case.keys import (
     complete,
     key,
 )
-from dilatedem.case.solids import Body, PileStructure, PlaneStructure
+from dilatedem.structures import kinds
 
 # Contact with a wall boundary is recorded under these names, so that no structure may take them.
 WALL_NAMES = ("wall_x_min", "wall_x_max", "wall_y_min", "wall_y_max")
@@ -177,7 +178,7 @@ class Case(Table):
     ice: Ice = Ice()
     water: Water = Water()
     gravity: Gravity = Gravity()
-    structure: list[Annotated[PileStructure | PlaneStructure, Field(discriminator="kind")]] = []
+    structure: list[Annotated[Union[kinds.KINDS], Field(discriminator="kind")]] = []  # noqa: UP007 (a union of a list of classes)
     contact: Contact = Contact()
     time: Time = Time()
     output: Output = Output()
@@ -248,7 +249,7 @@ TABLES: dict[str, type[Table]] = {
     for name, field in Case.model_fields.items()
     if isinstance(field.annotation, type) and issubclass(field.annotation, Table)
 }
-STRUCTURES: dict[str, type[Table]] = {"pile": PileStructure, "plane": PlaneStructure}
+STRUCTURES: dict[str, type[Table]] = dict(kinds.BY_NAME)
 
 
 def table_of(path: tuple[str | int, ...], data: dict) -> tuple[type[Table], str] | None:

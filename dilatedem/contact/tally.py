@@ -9,7 +9,7 @@ DEEPEST = 4.0
 
 
 @item
-def book_contact(k, part, dt, floating, shapes, contact, pairs, tally):
+def book_contact(k, part, dt, structure_of, shapes, contact, pairs, tally):
     """Add what pair k cost and showed in this step to row `part` of the tally (`state.storage.Tally`)."""
     tally.work[part, 0] += 1
     tally.work[part, 1] += pairs.rounds[k]
@@ -20,7 +20,7 @@ def book_contact(k, part, dt, floating, shapes, contact, pairs, tally):
         # what the end of a contact cost is booked once
         pairs.loss_friction[k] = pairs.loss_damping[k] = pairs.gain_law[k] = 0.0
         return
-    on_structure, mode = 1 if pairs.b[k] >= floating else 0, pairs.mode[k]
+    on_structure, mode = 1 if structure_of[pairs.b[k]] >= 0 else 0, pairs.mode[k]
     tally.mode_steps[part, on_structure, mode] += 1.0
     tally.mode_impulse[part, on_structure, mode] += pairs.normal_force[k] * dt
     tally.mode_force[part, on_structure, mode] = max(tally.mode_force[part, on_structure, mode], pairs.normal_force[k])

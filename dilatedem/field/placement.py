@@ -16,6 +16,7 @@ import numpy as np
 import shapely
 from numpy.typing import ArrayLike
 
+from dilatedem.field.obstacles import Disk, HalfPlane, Obstacle
 from dilatedem.field.tessellation import voronoi_cells
 from dilatedem.geometry import outline as plan
 from dilatedem.geometry.polyhedron import Polyhedron
@@ -27,33 +28,6 @@ VANISHING = 1e-12
 EPSILON = float(np.finfo(float).eps)
 
 
-@dataclass(frozen=True)
-class Disk:
-    """Plan of a pile: centre (2,) and outer radius [m]."""
-
-    center: tuple[float, float]
-    radius: float
-
-
-@dataclass(frozen=True)
-class HalfPlane:
-    """Plan of a plane structure through `point` (2,) [m]: solid on the side away from its `normal` (2,).
-
-    It has no periodic images: with one, a solid half-plane would fill a periodic domain.
-    """
-
-    point: tuple[float, float]
-    normal: tuple[float, float]
-
-
-@dataclass(frozen=True, eq=False)
-class Region:
-    """Plan of any other body: its outline (n, 2) [m]."""
-
-    outline: np.ndarray
-
-
-Obstacle = Disk | HalfPlane | Region
 Groups = list[tuple[np.ndarray, np.ndarray]]  # cells (m,) of n sides and their corners (m, n, 2), for each n
 
 

@@ -54,6 +54,7 @@ class Shapes(NamedTuple):
     kind: np.ndarray  # (n,) Kind
     radius: np.ndarray  # (n,) dilated radius, m
     reach: np.ndarray  # (n,) largest distance of the dilated surface from the centroid, m
+    plan_reach: np.ndarray  # (n,) radius of the upright cylinder about the centroid that holds the body: no more than its reach, m
     vertex_start: np.ndarray  # (n+1,)
     vertex: np.ndarray  # (v, 3) core vertices, body frame, m
     neighbour_start: np.ndarray  # (v+1,)
@@ -97,6 +98,7 @@ def pack_shapes(shapes: Sequence[BodyShape], planes: Sequence[np.ndarray], order
         kind=np.array([Kind.CONVEX] * convex + [Kind.HALF_SPACE] * len(planes), np.int64),
         radius=radius,
         reach=reach,
+        plan_reach=reach.copy(),
         vertex_start=_with_empty(packed.vertex_start, len(planes)),
         vertex=packed.vertex,
         neighbour_start=neighbour_start,

@@ -15,7 +15,7 @@ from html import escape  # that of xml.sax loads half of the web with it
 import numpy as np
 
 from dilatedem.geometry.packing import PackedPolyhedra, pack_polyhedra
-from dilatedem.geometry.polyhedron import Polyhedron, convex_hull, prism
+from dilatedem.geometry.polyhedron import Polyhedron
 from dilatedem.numerics.frames import matrix_from_quaternion
 from dilatedem.output.atomic import replacing, write_text
 
@@ -32,12 +32,6 @@ CELL_DATA = {
 
 VTK_POLYHEDRON = 42
 COMPRESSION = 1  # zlib level: coordinates are nearly random digits, a higher one saves 1 % for twice the time
-
-# What is drawn of structures that reach further than any floe: a piece around the water level.
-STRUCTURE_BOTTOM = -3.0  # m
-STRUCTURE_TOP = 2.0  # m
-PILE_SIDES = 64
-PLATE_THICKNESS = 0.05  # m, of a plane's plate, which lies on its solid side
 
 
 class SnapshotWriter:
@@ -101,48 +95,13 @@ def write_shapes(path, outers: Sequence[Polyhedron], position, orientation, cell
     SnapshotWriter(outers, order)._write(path, position, orientation, cell_data)
 
 
-def write_structures(path, outers: Sequence[Polyhedron]) -> None:
-    """Write the structures' shapes (world coordinates), atomically; cell data: `structure`, their order."""
+def write_structures(path, drawings: Sequence[Sequence[Polyhedron]]) -> None:
+    """Write the pieces of each structure (world coordinates), atomically; cell data: `structure`, the structures' order."""
+    outers = [piece for pieces in drawings for piece in pieces]
     count = len(outers)
     orientation = np.tile([1.0, 0.0, 0.0, 0.0], (count, 1))
-    number = np.arange(count, dtype=np.int64)
+    number = np.repeat(np.arange(len(drawings)), [len(pieces) for pieces in drawings]).astype(np.int64)
     write_shapes(path, outers, np.zeros((count, 3)), orientation, {"structure": number})
-
-
-def pile_column(center, radius: float) -> Polyhedron:
-    """A vertical pile, centre (2,) [m] in plan, as a column of PILE_SIDES sides around the water level."""
-    angle = np.arange(PILE_SIDES) * (2.0 * np.pi / PILE_SIDES)
-    outline = np.asarray(center, dtype=float) + radius * np.column_stack([np.cos(angle), np.sin(angle)])
-    return prism(outline, STRUCTURE_BOTTOM, STRUCTURE_TOP)
-
-
-def plane_plate(point, normal, extent: float) -> Polyhedron:
-    """A plane through `point` (3,) with outward `normal` (3,), as a thin plate `extent` [m] wide.
-
-    Steep plates are cut at the heights between which piles are drawn.
-    """
-    point, normal = np.asarray(point, dtype=float), np.asarray(normal, dtype=float)
-    normal = normal / np.linalg.norm(normal)
-    along = np.cross([0.0, 0.0, 1.0], normal)
-    if np.linalg.norm(along) < 1e-9:  # level plane: no direction along it is special
-        along = np.array([1.0, 0.0, 0.0])
-    along /= np.linalg.norm(along)
-    upward = np.cross(normal, along)  # steepest ascent, for a plane that leans either way
-    half = 0.5 * extent
-    low = high = half
-    if upward[2] > 1e-9:
-        low = min(half, max(0.0, point[2] - STRUCTURE_BOTTOM) / upward[2])
-        high = min(half, max(0.0, STRUCTURE_TOP - point[2]) / upward[2])
-    return convex_hull(
-        np.array(
-            [
-                point + a * half * along + b * upward - depth * normal
-                for a in (-1.0, 1.0)
-                for b in (-low, high)
-                for depth in (0.0, PLATE_THICKNESS)
-            ]
-        )
-    )
 
 
 def write_pvd(path, snapshots: Sequence[tuple[float, str]]) -> None:

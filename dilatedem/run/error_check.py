@@ -181,7 +181,7 @@ def replay(simulation, steps: int, parts: int, asked: Callable[[], bool]) -> dic
     state = replace(
         simulation.state, bodies=Bodies(*(values.copy() for values in copy.bodies)),
         pairs=unpacked(copy.pairs, 2 * len(copy.pairs.a) + 64), ledger=empty_ledger(),
-        loads=empty_loads(loads.map_origin, loads.map_span), clock=clock_at_start(),
+        loads=empty_loads(len(loads.step_contacts)), clock=clock_at_start(),
     )  # fmt: skip
     again = replace(simulation, state=state, dt=simulation.dt / parts)
     left = steps * parts

@@ -1,5 +1,6 @@
 """What a run writes, and when: the observers of `output` wired to one simulation."""
 
+import math
 import time
 from collections.abc import Callable
 from dataclasses import asdict, dataclass, field
@@ -10,7 +11,6 @@ import numpy as np
 from dilatedem import __version__
 from dilatedem.case import write
 from dilatedem.errors import Interrupted
-from dilatedem.geometry.polyhedron import Polyhedron
 from dilatedem.output import checkpoint, folder
 from dilatedem.output.archive import ContactStatistics, FloeTable, LoadMap, RunArchive
 from dilatedem.output.atomic import write_text
@@ -19,11 +19,12 @@ from dilatedem.output.energies import work_up as work_up_energies
 from dilatedem.output.schedule import Schedule
 from dilatedem.output.summary import versions, write_summary
 from dilatedem.output.tables import BODIES_COLUMNS, ENERGY_COLUMNS, FORCES_COLUMNS, Table
-from dilatedem.output.vtu import SnapshotWriter, pile_column, plane_plate, wrapped, write_pvd, write_structures
+from dilatedem.output.vtu import SnapshotWriter, wrapped, write_pvd, write_structures
 from dilatedem.output.windows import Ended, append, end_open_window, headline_loads, schedule_windows, work_up
 from dilatedem.run import error_check
-from dilatedem.scene.place import ordered_structures
-from dilatedem.state.loads import ANGLE_BINS, HEIGHT_BINS
+from dilatedem.scene.arrays import charts_of
+from dilatedem.state.charts import Along
+from dilatedem.state.loads import HEIGHT_BINS, PLACE_BINS
 
 #: s of wall time after which, at the latest, new rows and snapshots are in the tables and in ice.pvd (or at the next thing due)
 REFRESH_S = 1.0
@@ -59,10 +60,10 @@ class RunOutput:
         self._prepare(simulation, out, -1)
         folder.clear(out)
         (out / "snapshots").mkdir(parents=True, exist_ok=True)
-        case = simulation.case
+        case, extent = simulation.case, math.hypot(*simulation.case.domain.size)
         header = f"# dilatedem {__version__}, seed {case.field.seed}\n\n"
         write_text(out / folder.CASE, header + write.dump(case))
-        write_structures(out / folder.STRUCTURES, [_drawn(s, case) for s in self._structures])
+        write_structures(out / folder.STRUCTURES, [structure.about.drawing(extent) for structure in self._structures])
         self._tables = {name: Table(out / name, columns) for name, columns in self._columns().items()}
         self._write_summary("running", "")
         return self
@@ -70,7 +71,7 @@ class RunOutput:
     def _prepare(self, simulation, out: Path, since: int) -> None:
         """since: the last step that was observed."""
         self._simulation, self._out = simulation, out
-        self._structures = ordered_structures(simulation.scene)
+        self._structures = simulation.scene.structures
         self._writer = SnapshotWriter([shape.outer for shape in simulation.scene.shapes], simulation.scene.order)
         self._began = time.perf_counter()
         self._archive: RunArchive | None = None  # until it is written first
@@ -285,15 +286,13 @@ class RunOutput:
         """Load maps and contact statistics of this moment, in copies."""
         simulation, loads = self._simulation, self._simulation.state.loads
         maps = []
-        for s, structure in enumerate(self._structures):
-            half, low, high = loads.map_span[s]
-            pile = structure.kind == "pile"
-            edges = np.linspace(-180.0, 180.0, ANGLE_BINS + 1) if pile else np.linspace(-half, half, ANGLE_BINS + 1)
+        for s, (structure, chart) in enumerate(zip(self._structures, charts_of(simulation.case, simulation.scene), strict=True)):
+            low, high = simulation.model.charts.heights[s]
+            around = chart.along == Along.ANGLE
             maps.append(LoadMap(
-                structure=structure.name, kind=structure.kind, impulse=loads.impulse_map[s].copy(), edges=edges,
-                height_edges=np.linspace(low, high, HEIGHT_BINS + 1), duration_s=simulation.time_s,
-                center=structure.center if pile else structure.point, radius=structure.radius if pile else None,
-                axis=None if pile else loads.map_origin[s, 3:],
+                structure=structure.name, kind=structure.about.kind, impulse=loads.impulse_map[s].copy(),
+                edges=chart.edges(PLACE_BINS), height_edges=np.linspace(low, high, HEIGHT_BINS + 1), duration_s=simulation.time_s,
+                center=structure.about.center if around else structure.about.point, radius=chart.radius, axis=chart.axis,
             ))  # fmt: skip
         statistics = {
             partners: ContactStatistics(*(
@@ -334,9 +333,3 @@ class RunOutput:
             },
         } | ({"error_check": self._checked} if self._checked else {}))  # fmt: skip
 
-
-def _drawn(structure, case) -> Polyhedron:
-    """A structure as ParaView sees it."""
-    if structure.kind == "pile":
-        return pile_column(structure.center, structure.radius)
-    return plane_plate(structure.point, structure.normal, 1.2 * float(np.hypot(*case.domain.size)))

@@ -19,14 +19,8 @@ from dilatedem.run.error_check import Watch
 from dilatedem.run.interruption import Interruption
 from dilatedem.run.output import RunOutput, Totals
 from dilatedem.run.pace import free_span, time_step, total_steps
-from dilatedem.scene.place import (
-    Scene,
-    build_model,
-    compose,
-    initial_bodies,
-    load_map_geometry,
-    ordered_structures,
-)
+from dilatedem.scene.arrays import build_model, initial_bodies
+from dilatedem.scene.place import Scene, compose
 from dilatedem.state.bodies import Bodies
 from dilatedem.state.clock import Clock, Status, clock_at_start
 from dilatedem.state.ledger import Ledger, empty_ledger
@@ -103,7 +97,7 @@ class Simulation:
         span = free_span(case, dt)
         state = State(
             bodies, empty_pairs(PAIRS_PER_BODY * scene.count + 64), empty_ledger(),
-            empty_loads(*load_map_geometry(case, scene)), clock_at_start(), Totals(),
+            empty_loads(len(scene.structures)), clock_at_start(), Totals(),
             Watch(dt, span) if case.time.error_check else None,
         )  # fmt: skip
         return cls(case, scene, model, state, dt, critical, span, threads)
@@ -330,6 +324,6 @@ def _fault(simulation: Simulation, status: Status) -> str:
 def _body_name(simulation: Simulation, body: int) -> str:
     floating = simulation.model.floating
     if body >= floating:
-        return f'structure "{ordered_structures(simulation.scene)[body - floating].name}"'
+        return f'structure "{simulation.scene.structures[simulation.model.structure_of[body]].name}"'
     x, y = simulation.state.bodies.position[body, :2]
     return f"body {body} at ({x:.2f}, {y:.2f})"

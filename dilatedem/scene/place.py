@@ -1,31 +1,24 @@
-"""From a case to bodies in place: explicit bodies, generated floes, structures, packed into the arrays that kernels work on."""
+"""Who stands where at t = 0: explicit bodies, generated floes, structures."""
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
 
+from dilatedem.case.bodies import Body
 from dilatedem.case.schema import WALL_NAMES, Case
-from dilatedem.case.solids import Body, PileStructure, PlaneStructure
 from dilatedem.errors import CaseError
-from dilatedem.field.placement import Disk, FloeField, HalfPlane, Obstacle, Region, equilibrium_height, ice_field
+from dilatedem.field.obstacles import Region
+from dilatedem.field.placement import FloeField, equilibrium_height, ice_field
 from dilatedem.field.sizes import floe_count
 from dilatedem.geometry import outline as plan
 from dilatedem.geometry.floes import floe_shapes
 from dilatedem.geometry.polyhedron import convex_hull, prism
-from dilatedem.geometry.shapes import BodyShape, pack_hulls, pack_shapes
+from dilatedem.geometry.shapes import BodyShape
 from dilatedem.numerics.frames import matrix_from_quaternion, quaternion_from_rotation_vector
-from dilatedem.state.bodies import Bodies, Solids, bodies_at_rest
-from dilatedem.state.model import Model
-from dilatedem.state.setting import ConsistentSetting, ContactModel, ContactSetting, Surroundings
 from dilatedem.state.storage import MOST_CORNERS
+from dilatedem.structures.kind import Part, Structure
+from dilatedem.structures.plane import Plane
 
-Structure = PileStructure | PlaneStructure
-
-#: half the length of a pile's core, m: "reaching beyond any floe above and below"
-PILE_HALF_LENGTH = 200.0
-#: a load map's heights reach from so many ice thicknesses below the water level to so many above
-MAP_HEIGHTS = (-1.5, 1.0)
 #: corners of a face after clipping by another: both counts together have to fit into the workspace
 MOST_FACE_CORNERS = MOST_CORNERS // 2 - 1
 
@@ -45,10 +38,23 @@ class PlacedBody:
 
 
 @dataclass(frozen=True, eq=False)
+class PlacedStructure:
+    """A structure and its bodies."""
+
+    about: Structure
+    parts: list[Part]
+
+    @property
+    def name(self) -> str:
+        return self.about.name
+
+
+@dataclass(frozen=True, eq=False)
 class Scene:
     """All n bodies of a case in place at t = 0, and its structures (those of the case, then the domain's walls).
 
-    Bodies are numbered from 0: those of the case's `[[body]]` list in their order, then the generated floes.
+    Bodies are numbered from 0: those of the case's `[[body]]` list in their order, then the generated floes. Structures whose parts
+    are half spaces come last, as their bodies do.
     """
 
     explicit: int  # bodies of the list
@@ -58,7 +64,7 @@ class Scene:
     orientation: np.ndarray  # (n, 4) unit quaternion, body to world
     outlines: plan.Outlines  # as seen from above, world coordinates, m
     plan_area: np.ndarray  # (n,) m2
-    structures: list[Structure]
+    structures: list[PlacedStructure]
     field: FloeField
 
     @property
@@ -81,16 +87,17 @@ class Scene:
 
 
 def compose(case: Case) -> Scene:
-    """Place every body of a case. Raises CaseError where the field or a body cannot be built."""
+    """Place every body of a case. Raises CaseError where the field, a body or a structure cannot be built."""
     explicit = [_explicit_body(case, number, body) for number, body in enumerate(case.body)]
+    structures = _structures(case)
     try:
         field = _floe_field(case, explicit)
-        return _scene(case, explicit, field)
+        return _scene(case, explicit, field, structures)
     except ValueError as fault:
         raise CaseError(f"the ice field cannot be built: {fault}") from fault
 
 
-def _scene(case: Case, explicit: list[PlacedBody], field: FloeField) -> Scene:
+def _scene(case: Case, explicit: list[PlacedBody], field: FloeField, structures: list[PlacedStructure]) -> Scene:
     """Explicit bodies and floes in one numbering. Raises ValueError for a floe that has no shape or does not float."""
     first = len(explicit)
     position, orientation = np.zeros((first + len(field.outlines), 3)), np.zeros((first + len(field.outlines), 4))
@@ -111,12 +118,13 @@ def _scene(case: Case, explicit: list[PlacedBody], field: FloeField) -> Scene:
         orientation=orientation,
         outlines=plan.Outlines.of([*(body.outline for body in explicit), *field.outlines]) if explicit else field.outlines,
         plan_area=np.concatenate([[body.plan_area for body in explicit], field.plan_area]),
-        structures=[*case.structure, *_walls(case)],
+        structures=structures,
         field=field,
     )
 
 
-def _periodic(case: Case) -> tuple[bool, bool]:
+def periodic_axes(case: Case) -> tuple[bool, bool]:
+    """Whether the domain is periodic along x and along y."""
     return case.domain.x_boundary == "periodic", case.domain.y_boundary == "periodic"
 
 
@@ -126,41 +134,39 @@ def _floe_field(case: Case, explicit: list[PlacedBody]) -> FloeField:
         return FloeField(plan.Outlines.of([]), np.zeros(0), 1.0, 0.0, 0)
     size = case.domain.size
     count = case.field.floe_count or floe_count(size, case.field.concentration, case.field.floe_size)
+    obstacles = [obstacle for structure in case.structure for obstacle in structure.obstacles(case.ice.thickness)]
     return ice_field(
         size,
         count,
         case.field.concentration,
-        periodic=_periodic(case),
+        periodic=periodic_axes(case),
         seed=case.field.seed,
         dilated_radius=case.ice.dilated_radius,
-        obstacles=[*_structure_obstacles(case), *(Region(body.outline) for body in explicit)],
+        obstacles=[*obstacles, *(Region(body.outline) for body in explicit)],
     )
 
 
-def _structure_obstacles(case: Case) -> list[Obstacle]:
-    obstacles: list[Obstacle] = []
-    for structure in case.structure:
-        if structure.kind == "pile":
-            obstacles.append(Disk(structure.center, structure.radius))
-        elif math.hypot(*structure.normal[:2]) > 0.0:  # a level plane bounds no floe in plan
-            level = math.hypot(*structure.normal[:2])
-            across, slope = np.array(structure.normal[:2]) / level, structure.normal[2] / level
-            # where it stands out farthest towards the ice, over the heights that a floe can take up
-            reach = slope * structure.point[2] + abs(slope) * case.ice.thickness
-            obstacles.append(HalfPlane(tuple(np.array(structure.point[:2]) + across * reach), tuple(across)))
-    return obstacles
+def _structures(case: Case) -> list[PlacedStructure]:
+    """The structures of a case and its walls with their bodies, those of half spaces last. Raises CaseError that names one."""
+    placed = []
+    for number, structure in enumerate([*case.structure, *_walls(case)]):
+        try:
+            placed.append(PlacedStructure(structure, structure.parts()))
+        except ValueError as fault:
+            raise CaseError(f"structure.{number}: {fault}") from fault
+    return sorted(placed, key=lambda structure: any(part.is_half_space for part in structure.parts))
 
 
-def _walls(case: Case) -> list[PlaneStructure]:
+def _walls(case: Case) -> list[Structure]:
     """Rigid planes where a boundary of the domain is a wall, with the default elasticity of a structure."""
-    walls = []
+    walls: list[Structure] = []
     for axis, boundary in enumerate((case.domain.x_boundary, case.domain.y_boundary)):
         if boundary != "wall":
             continue
         for side, name in zip((-1.0, 1.0), WALL_NAMES[2 * axis : 2 * axis + 2], strict=True):
             point, normal = [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]
             point[axis], normal[axis] = 0.5 * side * case.domain.size[axis], -side
-            walls.append(PlaneStructure(kind="plane", name=name, point=tuple(point), normal=tuple(normal)))
+            walls.append(Plane(kind="plane", name=name, point=tuple(point), normal=tuple(normal)))
     return walls
 
 
@@ -196,121 +202,3 @@ def _floe_shape(outline: np.ndarray, thickness: float, radius: float) -> tuple[B
 
 def _floating_height(case: Case, shape: BodyShape, density: float) -> float | np.ndarray:
     return equilibrium_height(shape.outer, density, case.water.density) if case.water.enabled else 0.0
-
-
-def build_model(case: Case, scene: Scene) -> Model:
-    """The constant arrays of a run."""
-    # convex structures (piles) must come before half spaces, as `pack_shapes` puts those last
-    piles = [s for s in scene.structures if s.kind == "pile"]
-    planes = [s for s in scene.structures if s.kind == "plane"]
-    column = np.array([[0.0, 0.0, -PILE_HALF_LENGTH], [0.0, 0.0, PILE_HALF_LENGTH]])
-    columns = [BodyShape.of_core(convex_hull(column), pile.radius)[0] for pile in piles]
-    normals = [np.array(plane.normal) / np.linalg.norm(plane.normal) for plane in planes]
-    order = np.concatenate([scene.order, np.arange(scene.count, scene.count + len(columns))])
-    shapes = pack_shapes(scene.shapes + columns, normals, order)
-    water, periodic = case.water, _periodic(case)
-    _require_one_image(case, scene, shapes.reach[: scene.count], periodic)
-    current = water.velocity if water.enabled else (0.0, 0.0)
-    return Model(
-        floating=scene.count,
-        shapes=shapes,
-        hulls=pack_hulls(scene.shapes, scene.order),
-        solids=_solids(case, scene, [*piles, *planes]),
-        contact=_contact_setting(case),
-        surroundings=Surroundings(
-            case.gravity.acceleration, water.enabled, water.density, *current, water.drag_force_coefficient,
-            water.drag_moment_coefficient, *np.where(periodic, case.domain.size, 0.0).tolist(),
-        ),
-    )  # fmt: skip
-
-
-def _contact_setting(case: Case) -> ContactSetting:
-    contact = case.contact
-    model = ContactModel[contact.model.upper()]
-    setting = ConsistentSetting if model == ContactModel.CONSISTENT else ContactSetting
-    return setting(int(model), contact.damping, contact.friction, contact.stiffness_ratio)
-
-
-def _require_one_image(case: Case, scene: Scene, reach: np.ndarray, periodic: tuple[bool, bool]) -> None:
-    """A pair of bodies, `reach` (n,) [m], may meet in one periodic image only. Raises CaseError where a period is too short."""
-    reaches = np.sort(reach)[::-1]
-    partners = [*reaches[1:2], *(structure.radius for structure in scene.structures if structure.kind == "pile")]
-    if not partners:
-        return
-    least = 2.0 * (reaches[0] + max(partners))
-    for axis, wraps in enumerate(periodic):
-        if wraps and case.domain.size[axis] <= least:
-            raise CaseError(
-                f"domain.size.{axis} = {case.domain.size[axis]:g}: is periodic and must be more than {least:.3g} m, or the two "
-                "largest bodies could meet on both sides at once"
-            )
-
-
-def ordered_structures(scene: Scene) -> list[Structure]:
-    """Structures in the order of their bodies: piles, then planes."""
-    return sorted(scene.structures, key=lambda structure: structure.kind == "plane")
-
-
-def _solids(case: Case, scene: Scene, structures: list[Structure]) -> Solids:
-    """Masses and elasticity; structures are of infinite mass."""
-    count, bodies = scene.count + len(structures), scene.count
-    mass, inverse_mass, compliance = np.zeros(count), np.zeros(count), np.zeros(count)
-    inertia, inverse_inertia = np.zeros((count, 3, 3)), np.zeros((count, 3, 3))
-    density = np.full(bodies, case.ice.density)
-    free = np.ones(bodies, np.bool_)
-    compliance[:] = _compliance(case.ice)
-    for i, given in enumerate(case.body):
-        density[i], free[i], compliance[i] = given.density, not given.fixed, _compliance(given)
-    for i, structure in enumerate(structures, start=bodies):
-        compliance[i] = _compliance(structure)
-    mass[:bodies] = scene.volume() * density
-    inertia[:bodies] = scene.unit_inertia() * density[:, None, None]
-    moving = np.flatnonzero(free)
-    inverse_mass[moving] = 1.0 / mass[moving]
-    inverse_inertia[moving] = np.linalg.inv(inertia[moving])
-    return Solids(inverse_mass, mass, inertia, inverse_inertia, compliance)
-
-
-def _compliance(material) -> float:
-    """A body's term of Liu 2015, Eq. (7) [1/Pa]."""
-    return (1.0 - material.poisson_ratio**2) / material.elastic_modulus
-
-
-def initial_bodies(case: Case, scene: Scene, model: Model) -> Bodies:
-    """All bodies where and as fast as the case says."""
-    structures = ordered_structures(scene)
-    bodies = bodies_at_rest(scene.count + len(structures))
-    ice_velocity = case.ice.initial_velocity
-    if ice_velocity == "current":
-        ice_velocity = (*case.water.velocity, 0.0) if case.water.enabled else (0.0, 0.0, 0.0)
-    bodies.position[: scene.count], bodies.orientation[: scene.count] = scene.position, scene.orientation
-    bodies.velocity[scene.explicit : scene.count] = ice_velocity
-    for i, given in enumerate(case.body):
-        bodies.velocity[i], bodies.angular_velocity[i] = given.velocity, given.angular_velocity
-        if not given.fixed:
-            turn = matrix_from_quaternion(scene.orientation[i])
-            bodies.angular_momentum[i] = turn @ model.solids.inertia[i] @ turn.T @ given.angular_velocity
-    for i, structure in enumerate(structures, start=scene.count):
-        bodies.position[i] = structure.point if structure.kind == "plane" else (*structure.center, 0.0)
-    bodies.middle_velocity[:] = bodies.velocity
-    bodies.middle_angular_velocity[:] = bodies.angular_velocity
-    bodies.middle_angular_momentum[:] = bodies.angular_momentum
-    return bodies
-
-
-def load_map_geometry(case: Case, scene: Scene) -> tuple[np.ndarray, np.ndarray]:
-    """map_origin (s, 6) and map_span (s, 3) of `state.loads.Loads` for the structures in their order [m]."""
-    low, high = (factor * case.ice.thickness for factor in MAP_HEIGHTS)
-    structures = ordered_structures(scene)
-    origin, span = np.zeros((len(structures), 6)), np.zeros((len(structures), 3))
-    for s, structure in enumerate(structures):
-        span[s] = 0.0, low, high
-        if structure.kind == "pile":
-            origin[s, :2] = structure.center
-            continue
-        across = np.cross([0.0, 0.0, 1.0], structure.normal)
-        length = np.linalg.norm(across)
-        origin[s, :3] = structure.point
-        origin[s, 3:] = across / length if length > 0.0 else (1.0, 0.0, 0.0)
-        span[s, 0] = 0.5 * math.hypot(*case.domain.size)
-    return origin, span

@@ -7,7 +7,7 @@ import numpy as np
 from dilatedem.state.clock import NEVER
 from dilatedem.state.modes import MODE_COUNT
 
-ANGLE_BINS = 72  # of a load map: 5 degrees each
+PLACE_BINS = 72  # of a load map: around a pile 5 degrees each
 HEIGHT_BINS = 20
 #: windows of loads that wait to be written, at most
 WINDOWS = 1000
@@ -22,9 +22,7 @@ class Loads(NamedTuple):
     contact_sum: np.ndarray  # (s,) contacts, summed over steps
     step_load: np.ndarray  # (s, 6) of this step
     step_contacts: np.ndarray  # (s,) of this step
-    impulse_map: np.ndarray  # (s, ANGLE_BINS, HEIGHT_BINS) normal impulse, N s
-    map_origin: np.ndarray  # (s, 6) of a plane: origin and unit vector of its horizontal coordinate; of a pile: its centre
-    map_span: np.ndarray  # (s, 3) half width of the horizontal coordinate, lowest and highest height, m; half width 0 = angle
+    impulse_map: np.ndarray  # (s, PLACE_BINS, HEIGHT_BINS) normal impulse, N s, as `state.charts` lays it out
     mode_steps: np.ndarray  # (2, MODE_COUNT) contact steps, ice on ice and ice on structure
     mode_impulse: np.ndarray  # (2, MODE_COUNT) N s
     mode_force: np.ndarray  # (2, MODE_COUNT) N, largest normal force
@@ -45,13 +43,13 @@ class Windows(NamedTuple):
     contacts: np.ndarray  # (WINDOWS, s)
 
 
-def empty_loads(map_origin: np.ndarray, map_span: np.ndarray) -> Loads:
-    """Nothing recorded yet; map_origin (s, 6) and map_span (s, 3) as in `Loads`."""
-    s = len(map_origin)
+def empty_loads(structures: int) -> Loads:
+    """Nothing recorded yet."""
+    s = structures
     per_mode = (np.zeros((2, MODE_COUNT)) for _ in range(4))
     return Loads(
         np.zeros(1, np.int64), np.zeros((s, 6)), np.zeros((s, 5)), np.zeros(s, np.int64), np.zeros((s, 6)), np.zeros(s, np.int64),
-        np.zeros((s, ANGLE_BINS, HEIGHT_BINS)), map_origin, map_span, *per_mode,
+        np.zeros((s, PLACE_BINS, HEIGHT_BINS)), *per_mode,
     )  # fmt: skip
 
 

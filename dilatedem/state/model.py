@@ -2,15 +2,20 @@
 
 from typing import NamedTuple
 
+import numpy as np
+
 from dilatedem.geometry.shapes import Hulls, Shapes
 from dilatedem.state.bodies import Solids
+from dilatedem.state.charts import Charts
 from dilatedem.state.setting import ContactSetting, Surroundings
 
 
 class Model(NamedTuple):
-    floating: int  # bodies that are no structures; structures are numbered after them
+    floating: int  # bodies that are no structures; those of structures are numbered after them
+    structure_of: np.ndarray  # (n,) the structure that a body belongs to, -1 = none
     shapes: Shapes
     hulls: Hulls
     solids: Solids
     contact: ContactSetting
     surroundings: Surroundings
+    charts: Charts

@@ -35,10 +35,10 @@ def advance(team, model, bodies, pairs, spare, cells, workspace, tally, ledger, 
                 break
             clock.step[0] += 1
             clock.moves[0] += busy
-            awake, at_structure = awake_pairs(near, model.floating, bodies, pairs, workspace)
+            awake, at_structure = awake_pairs(near, model.structure_of, bodies, pairs, workspace)
             collide_pairs(team, awake, dt, model, bodies, pairs, workspace, tally)
             load_and_kick(team, workspace.busy, busy, awake, dt, model, bodies, pairs, workspace)
-            load_structures(at_structure, dt, model.floating, bodies, pairs, workspace, loads)
+            load_structures(at_structure, dt, model.structure_of, model.charts, bodies, pairs, workspace, loads)
             record_loads(loads)
             end_window(clock.step[0], loads, windows)
             if too_deep(tally, pairs, clock):

@@ -191,7 +191,7 @@ def _turn_shapes(block, k, shapes, orientation, pairs, workspace):
 
 
 @device
-def _collide_block(block, blocks, count, dt, floating, shapes, solids, contact, surroundings, bodies, pairs, workspace, tally):
+def _collide_block(block, blocks, count, dt, structure_of, shapes, solids, contact, surroundings, bodies, pairs, workspace, tally):
     """Evaluate and book the awake pairs of some parts of the tally, in a clipping workspace of this block's own."""
     first_part, last_part = part(len(tally.deep), block, blocks)
     last = part(count, last_part - 1, len(tally.deep))[1]
@@ -208,19 +208,21 @@ def _collide_block(block, blocks, count, dt, floating, shapes, solids, contact, 
                 k, dt, shapes, workspace.vertex, workspace.face_normal, solids, bodies, pairs, contact, surroundings,
                 workspace.clip[block],
             )  # fmt: skip
-            book_contact(k, p, dt, floating, shapes, contact, pairs, tally)
+            book_contact(k, p, dt, structure_of, shapes, contact, pairs, tally)
 
 
 @device
-def _collide_alone(team, count, dt, floating, shapes, solids, contact, surroundings, bodies, pairs, workspace, tally):
-    _collide_block(0, 1, count, dt, floating, shapes, solids, contact, surroundings, bodies, pairs, workspace, tally)
+def _collide_alone(team, count, dt, structure_of, shapes, solids, contact, surroundings, bodies, pairs, workspace, tally):
+    _collide_block(0, 1, count, dt, structure_of, shapes, solids, contact, surroundings, bodies, pairs, workspace, tally)
 
 
 @shared_loop
-def _collide_shared(team, count, dt, floating, shapes, solids, contact, surroundings, bodies, pairs, workspace, tally):
+def _collide_shared(team, count, dt, structure_of, shapes, solids, contact, surroundings, bodies, pairs, workspace, tally):
     blocks = team.threads
     for block in prange(blocks):
-        _collide_block(block, blocks, count, dt, floating, shapes, solids, contact, surroundings, bodies, pairs, workspace, tally)
+        _collide_block(
+            block, blocks, count, dt, structure_of, shapes, solids, contact, surroundings, bodies, pairs, workspace, tally
+        )
 
 
 _collide_all = by_type(_collide_alone, {Team: _collide_shared})
@@ -231,7 +233,7 @@ def collide_pairs(team, count, dt, model, bodies, pairs, workspace, tally):
     """Evaluate the awake pairs, `count` of them; what they cost and showed goes to the tally."""
     m = model
     workspace.instant[0] += 1
-    _collide_all(team, count, dt, m.floating, m.shapes, m.solids, m.contact, m.surroundings, bodies, pairs, workspace, tally)
+    _collide_all(team, count, dt, m.structure_of, m.shapes, m.solids, m.contact, m.surroundings, bodies, pairs, workspace, tally)
 
 
 # --- float -------------------------------------------------------------------------------------------------------------------

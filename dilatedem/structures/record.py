@@ -4,11 +4,14 @@ from math import atan2, pi, sqrt
 
 from dilatedem.jit import device, item
 from dilatedem.numerics.vector import add, cross, load, sub
-from dilatedem.state.loads import ANGLE_BINS, HEIGHT_BINS
+from dilatedem.state.charts import Along
+from dilatedem.state.loads import HEIGHT_BINS, PLACE_BINS
+
+ANGLE, LINE = int(Along.ANGLE), int(Along.LINE)
 
 
 @device
-def load_structures(count, dt, floating, bodies, pairs, workspace, loads):
+def load_structures(count, dt, structure_of, charts, bodies, pairs, workspace, loads):
     """Loads on all structures at this step, from the awake pairs with one, `count` of them."""
     for s in range(len(loads.step_contacts)):
         loads.step_contacts[s] = 0
@@ -17,32 +20,54 @@ def load_structures(count, dt, floating, bodies, pairs, workspace, loads):
     for w in range(count):
         k = workspace.at_structure[w]
         if pairs.overlap[k] > 0.0:
-            b = pairs.b[k]
-            _load_structure(b - floating, bodies, pairs, k, b, load(pairs.force, k), dt, loads)
+            b, impulse = pairs.b[k], pairs.normal_force[k] * dt
+            arm, force, couple = load(pairs.arm, k), load(pairs.force, k), load(pairs.couple, k)
+            _load_structure(structure_of[b], load(bodies.position, b), arm, force, couple, impulse, charts, loads)
 
 
 @item
-def _load_structure(s, bodies, pairs, k, b, force, dt, loads):
-    """Add contact k to the load and the map of structure s (body b)."""
-    # moments are about the structure's centre at z = 0; arm is from the centroid of b
-    arm = load(pairs.arm, k)
-    height = bodies.position[b, 2] + arm[2]
-    lever = (arm[0], arm[1], height)
-    moment = add(load(pairs.couple, k), cross(lever, force))
+def _load_structure(s, position, arm, force, couple, impulse, charts, loads):
+    """Add a contact to the load and the map of structure s, at `arm` from one of its bodies, which is at `position`."""
+    center = load(charts.center, s)
+    # moments are about the structure's centre
+    lever = add(arm, sub(position, center))
+    moment = add(couple, cross(lever, force))
     loads.step_contacts[s] += 1
     for m in range(3):
         loads.step_load[s, m] += force[m]
         loads.step_load[s, 3 + m] += moment[m]
-    half = loads.map_span[s, 0]
-    if half > 0.0:
-        point = sub((bodies.position[b, 0] + arm[0], bodies.position[b, 1] + arm[1], height), load(loads.map_origin, s))
-        place = (point[0] * loads.map_origin[s, 3] + point[1] * loads.map_origin[s, 4]) / half
+    height = position[2] + arm[2]
+    along = charts.along[s]
+    if along == LINE:
+        point = sub((position[0] + arm[0], position[1] + arm[1], height), load(charts.origin, s))
+        place = (point[0] * charts.axis[s, 0] + point[1] * charts.axis[s, 1]) / charts.length[s]
+    elif along == ANGLE:
+        place = atan2(lever[1], lever[0]) / pi
     else:
-        place = atan2(arm[1], arm[0]) / pi
-    low, high = loads.map_span[s, 1], loads.map_span[s, 2]
-    i = min(max(int((place + 1.0) * 0.5 * ANGLE_BINS), 0), ANGLE_BINS - 1)
+        first, last = charts.outline_start[s], charts.outline_start[s + 1]
+        place = 2.0 * place_on_outline(charts.outline, first, last, lever[0], lever[1]) / charts.length[s] - 1.0
+    low, high = charts.heights[s, 0], charts.heights[s, 1]
+    i = min(max(int((place + 1.0) * 0.5 * PLACE_BINS), 0), PLACE_BINS - 1)
     j = min(max(int((height - low) / (high - low) * HEIGHT_BINS), 0), HEIGHT_BINS - 1)
-    loads.impulse_map[s, i, j] += pairs.normal_force[k] * dt
+    loads.impulse_map[s, i, j] += impulse
+
+
+@device
+def place_on_outline(outline, first, last, x, y):
+    """How far along the closed outline of corners first..last the place nearest to (x, y) lies, from its first corner [m]."""
+    nearest, place, passed = 1e300, 0.0, 0.0
+    for i in range(first, last):
+        j = i + 1 if i + 1 < last else first
+        ex, ey = outline[j, 0] - outline[i, 0], outline[j, 1] - outline[i, 1]
+        length = sqrt(ex * ex + ey * ey)
+        px, py = x - outline[i, 0], y - outline[i, 1]
+        t = min(max((px * ex + py * ey) / (length * length), 0.0), 1.0)
+        dx, dy = px - t * ex, py - t * ey
+        away = dx * dx + dy * dy
+        if away < nearest:
+            nearest, place = away, passed + t * length
+        passed += length
+    return place
 
 
 @device

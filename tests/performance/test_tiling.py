@@ -7,16 +7,18 @@ from benchmarks.scenes import SCENES, pitch_of, scene_simulation, tiled, tiles_f
 from benchmarks.tiling import repeated_hulls, repeated_shapes
 from dilatedem.geometry.polyhedron import convex_hull
 from dilatedem.geometry.shapes import BodyShape, pack_hulls, pack_shapes
-from dilatedem.scene.place import PILE_HALF_LENGTH
 from dilatedem.state.clock import Status
+from dilatedem.structures.pile import HALF_LENGTH
 
 
 def test_repeated_arrays_are_those_of_repeated_shapes():
     tile = scene_simulation("jam")
     floes = tile.scene.shapes
-    column = BodyShape.of_core(convex_hull(np.array([[0.0, 0.0, -PILE_HALF_LENGTH], [0.0, 0.0, PILE_HALF_LENGTH]])), 2.0)[0]
+    column = BodyShape.of_core(convex_hull(np.array([[0.0, 0.0, -HALF_LENGTH], [0.0, 0.0, HALF_LENGTH]])), 2.0)[0]
+    repeated = pack_shapes(3 * floes + 3 * [column], [])
+    repeated.plan_reach[-3:] = 2.0
     for made, packed in (
-        (repeated_shapes(tile.model.shapes, len(floes), 3), pack_shapes(3 * floes + 3 * [column], [])),
+        (repeated_shapes(tile.model.shapes, len(floes), 3), repeated),
         (repeated_hulls(tile.model.hulls, 3), pack_hulls(3 * floes)),
     ):
         for name, expected in packed._asdict().items():

@@ -5,7 +5,8 @@ import shapely
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from dilatedem.field.placement import Disk, ice_field
+from dilatedem.field.obstacles import Disk
+from dilatedem.field.placement import ice_field
 
 FIELDS = st.fixed_dictionaries(
     {

@@ -9,7 +9,8 @@ import pytest
 
 from dilatedem.case.schema import Case
 from dilatedem.generate import generate
-from dilatedem.scene.place import build_model, compose, initial_bodies
+from dilatedem.scene.arrays import build_model, initial_bodies
+from dilatedem.scene.place import compose
 
 SIZE = 2.8  # m, of a floe
 

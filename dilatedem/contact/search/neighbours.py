@@ -45,13 +45,13 @@ def near_structure(shapes, position, a, s, surroundings, skin):
     if shapes.kind[s] != 0:
         height = dot(load(shapes.plane_normal, s), sub(load(position, a), load(position, s)))
         return height - shapes.reach[a] < skin
-    # a pile's reach is its length: what counts is the distance from its axis
+    # a pile reaches far up and down: what counts is the distance in plan
     dx, dy = position[s, 0] - position[a, 0], position[s, 1] - position[a, 1]
     if surroundings.period_x > 0.0:
         dx -= surroundings.period_x * round(dx / surroundings.period_x)
     if surroundings.period_y > 0.0:
         dy -= surroundings.period_y * round(dy / surroundings.period_y)
-    return sqrt(dx * dx + dy * dy) - shapes.reach[a] - shapes.radius[s] < skin
+    return sqrt(dx * dx + dy * dy) - shapes.reach[a] - shapes.plan_reach[s] < skin
 
 
 @device
@@ -218,7 +218,7 @@ def _start_paths(bodies, floating, pairs, surroundings, skin):
 
 
 @device
-def awake_pairs(count, floating, bodies, pairs, workspace):
+def awake_pairs(count, structure_of, bodies, pairs, workspace):
     """Numbers of those of the `count` near pairs whose gap may have closed, to `workspace.awake`; returns how many.
 
     Those with a structure also go to `workspace.at_structure`, their number is returned second.
@@ -231,7 +231,7 @@ def awake_pairs(count, floating, bodies, pairs, workspace):
         if path[a] + path[b] >= pairs.wake[k]:
             awake[found] = k
             found += 1
-            if b >= floating:
+            if structure_of[b] >= 0:
                 workspace.at_structure[at_structure] = k
                 at_structure += 1
     return found, at_structure

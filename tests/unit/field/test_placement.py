@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 import shapely
 
-from dilatedem.field.placement import Disk, HalfPlane, Region, equilibrium_height, ice_field
+from dilatedem.field.obstacles import Disk, HalfPlane, Region
+from dilatedem.field.placement import equilibrium_height, ice_field
 from dilatedem.geometry.mass import dilated_solid
 from dilatedem.geometry.outer import outer_polyhedron
 from dilatedem.geometry.outline import area, centroid, erode, perimeter

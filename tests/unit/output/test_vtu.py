@@ -11,15 +11,14 @@ from dilatedem.geometry.polyhedron import convex_hull, prism, volume
 from dilatedem.numerics.frames import matrix_from_quaternion
 from dilatedem.output.folder import snapshot_name
 from dilatedem.output.vtu import (
-    PILE_SIDES,
-    PLATE_THICKNESS,
     SnapshotWriter,
-    pile_column,
-    plane_plate,
     wrapped,
     write_pvd,
     write_structures,
 )
+from dilatedem.structures.kind import CIRCLE_SIDES
+from dilatedem.structures.pile import Pile
+from dilatedem.structures.plane import PLATE_THICKNESS, plate
 
 vtk = pytest.importorskip("vtk")
 from vtk.util.numpy_support import vtk_to_numpy  # noqa: E402
@@ -218,14 +217,12 @@ def test_collection_lists_times_and_files(tmp_path, scene):
 
 
 def test_structures(tmp_path):
-    outers = [
-        pile_column((10.0, -1.0), 2.0),
-        plane_plate((3.0, 0.0, 0.0), (-1.0, 0.0, 0.0), 50.0),
-        plane_plate((0.0, 0.0, -4.0), (0.0, 0.0, 2.0), 50.0),
-    ]
-    write_structures(tmp_path / "structures.vtu", outers)
+    pile = Pile(kind="pile", center=(10.0, -1.0), radius=2.0)
+    write_structures(tmp_path / "structures.vtu", [
+        pile.drawing(50.0), [plate((3.0, 0.0, 0.0), (-1.0, 0.0, 0.0), 50.0)], [plate((0.0, 0.0, -4.0), (0.0, 0.0, 2.0), 50.0)],
+    ])  # fmt: skip
     grid = read(tmp_path / "structures.vtu")
-    column = 0.5 * PILE_SIDES * np.sin(2 * np.pi / PILE_SIDES) * 2.0**2 * 5.0
+    column = 0.5 * CIRCLE_SIDES * np.sin(2 * np.pi / CIRCLE_SIDES) * 2.0**2 * 5.0
     plates = [50.0 * 5.0 * PLATE_THICKNESS, 50.0 * 50.0 * PLATE_THICKNESS]
     number = vtk_to_numpy(grid.GetCellData().GetArray("structure"))
     assert sorted(number) == [0, 1, 2]
@@ -235,7 +232,7 @@ def test_structures(tmp_path):
 def test_plates_lie_on_the_solid_side():
     normal = np.array([-1.0, 0.0, 1.0]) / np.sqrt(2.0)
     point = np.array([4.0, 1.0, 0.0])
-    height = (plane_plate(point, normal, 40.0).vertices - point) @ normal
+    height = (plate(point, normal, 40.0).vertices - point) @ normal
     assert height.max() == pytest.approx(0.0, abs=1e-12)
     assert height.min() == pytest.approx(-PLATE_THICKNESS)
 

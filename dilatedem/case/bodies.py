@@ -1,43 +1,10 @@
-"""The solids of a case file that are given one by one: structures and explicit bodies."""
+"""The bodies of a case file that are given one by one."""
 
-import math
-from typing import Annotated, Any, Literal
+from typing import Annotated
 
 from pydantic import Field
 
-from dilatedem.case.keys import Fault, Name, PoissonRatio, Positive, Table, Vector2, Vector3, key
-
-
-def _name(default: str) -> Any:
-    text = "Its name in all output: a letter, then letters, digits, `_` and `-`. No two structures share one."
-    return key(default, "", text)
-
-
-class PileStructure(Table):
-    """A vertical circular pile, reaching beyond any floe above and below."""
-
-    kind: Literal["pile"] = key(..., "", "A vertical circular pile.")
-    name: Name = _name("pile")
-    center: Vector2 = key((10.0, 0.0), "m", "Position of the axis, x and y.")
-    radius: Positive = key(2.0, "m", "Radius of the pile.")
-    elastic_modulus: Positive = key(210e9, "Pa", "Young's modulus in contact.")
-    poisson_ratio: PoissonRatio = key(0.3, "", "Poisson's ratio.")
-
-
-class PlaneStructure(Table):
-    """An unbounded plane, solid on the side that its normal points away from."""
-
-    kind: Literal["plane"] = key(..., "", "An unbounded plane.")
-    name: Name = _name("plane")
-    point: Vector3 = key(..., "m", "Any point of the plane.")
-    normal: Vector3 = key(..., "", "Direction from the plane towards the ice; any length but zero.")
-    elastic_modulus: Positive = key(210e9, "Pa", "Young's modulus in contact.")
-    poisson_ratio: PoissonRatio = key(0.3, "", "Poisson's ratio.")
-
-    def faults(self) -> list[Fault]:
-        if math.hypot(*self.normal) == 0.0:
-            return [(("normal",), "must not be zero: it points from the plane towards the ice")]
-        return []
+from dilatedem.keys import Fault, PoissonRatio, Positive, Table, Vector2, Vector3, key
 
 
 class Body(Table):

@@ -1,0 +1,152 @@
+"""From a scene to the arrays that kernels work on: what is constant, and how all bodies move at the start."""
+
+import math
+
+import numpy as np
+
+from dilatedem.case.schema import Case
+from dilatedem.errors import CaseError
+from dilatedem.geometry.shapes import pack_hulls, pack_shapes
+from dilatedem.numerics.blocks import offsets
+from dilatedem.numerics.frames import matrix_from_quaternion
+from dilatedem.scene.place import Scene, periodic_axes
+from dilatedem.state.bodies import Bodies, Solids, bodies_at_rest
+from dilatedem.state.charts import Along, Charts
+from dilatedem.state.model import Model
+from dilatedem.state.setting import ConsistentSetting, ContactModel, ContactSetting, Surroundings
+from dilatedem.structures.kind import Chart, Part, perimeter
+
+#: a load map's heights reach from so many ice thicknesses below the water level to so many above
+MAP_HEIGHTS = (-1.5, 1.0)
+
+
+def build_model(case: Case, scene: Scene) -> Model:
+    """The constant arrays of a run."""
+    parts = _parts(scene)
+    cores = [part for part in parts if not part.is_half_space]
+    order = np.concatenate([scene.order, np.arange(scene.count, scene.count + len(cores))])
+    normals = [part.normal for part in parts if part.is_half_space]
+    shapes = pack_shapes(scene.shapes + [part.shape for part in cores], normals, order)
+    shapes.plan_reach[scene.count :] = [part.plan_reach for part in parts]
+    water, periodic = case.water, periodic_axes(case)
+    _require_one_image(case, shapes.reach[: scene.count], cores, periodic)
+    current = water.velocity if water.enabled else (0.0, 0.0)
+    return Model(
+        floating=scene.count,
+        structure_of=np.concatenate([np.full(scene.count, -1), _numbers(scene)]).astype(np.int64),
+        shapes=shapes,
+        hulls=pack_hulls(scene.shapes, scene.order),
+        solids=_solids(case, scene),
+        contact=_contact_setting(case),
+        surroundings=Surroundings(
+            case.gravity.acceleration, water.enabled, water.density, *current, water.drag_force_coefficient,
+            water.drag_moment_coefficient, *np.where(periodic, case.domain.size, 0.0).tolist(),
+        ),
+        charts=_pack_charts(case, scene),
+    )  # fmt: skip
+
+
+def _parts(scene: Scene) -> list[Part]:
+    return [part for structure in scene.structures for part in structure.parts]
+
+
+def _numbers(scene: Scene) -> np.ndarray:
+    """The structure that each part belongs to, by number."""
+    return np.repeat(np.arange(len(scene.structures)), [len(structure.parts) for structure in scene.structures])
+
+
+def _contact_setting(case: Case) -> ContactSetting:
+    contact = case.contact
+    model = ContactModel[contact.model.upper()]
+    setting = ConsistentSetting if model == ContactModel.CONSISTENT else ContactSetting
+    return setting(int(model), contact.damping, contact.friction, contact.stiffness_ratio)
+
+
+def _require_one_image(case: Case, reach: np.ndarray, cores: list[Part], periodic: tuple[bool, bool]) -> None:
+    """A pair of bodies, `reach` (n,) [m], may meet in one periodic image only. Raises CaseError where a period is too short."""
+    reaches = np.sort(reach)[::-1]
+    partners = [*reaches[1:2], *(part.plan_reach for part in cores)]
+    if not partners:
+        return
+    least = 2.0 * (reaches[0] + max(partners))
+    for axis, wraps in enumerate(periodic):
+        if wraps and case.domain.size[axis] <= least:
+            raise CaseError(
+                f"domain.size.{axis} = {case.domain.size[axis]:g}: is periodic and must be more than {least:.3g} m, or the two "
+                "largest bodies could meet on both sides at once"
+            )
+
+
+def _solids(case: Case, scene: Scene) -> Solids:
+    """Masses and elasticity; structures are of infinite mass."""
+    bodies = scene.count
+    of_structures = [_compliance(structure.about) for structure in scene.structures for _ in structure.parts]
+    count = bodies + len(of_structures)
+    mass, inverse_mass, compliance = np.zeros(count), np.zeros(count), np.zeros(count)
+    inertia, inverse_inertia = np.zeros((count, 3, 3)), np.zeros((count, 3, 3))
+    density = np.full(bodies, case.ice.density)
+    free = np.ones(bodies, np.bool_)
+    compliance[:bodies], compliance[bodies:] = _compliance(case.ice), of_structures
+    for i, given in enumerate(case.body):
+        density[i], free[i], compliance[i] = given.density, not given.fixed, _compliance(given)
+    mass[:bodies] = scene.volume() * density
+    inertia[:bodies] = scene.unit_inertia() * density[:, None, None]
+    moving = np.flatnonzero(free)
+    inverse_mass[moving] = 1.0 / mass[moving]
+    inverse_inertia[moving] = np.linalg.inv(inertia[moving])
+    return Solids(inverse_mass, mass, inertia, inverse_inertia, compliance)
+
+
+def _compliance(material) -> float:
+    """A body's term of Liu 2015, Eq. (7) [1/Pa]."""
+    return (1.0 - material.poisson_ratio**2) / material.elastic_modulus
+
+
+def initial_bodies(case: Case, scene: Scene, model: Model) -> Bodies:
+    """All bodies where and as fast as the case says."""
+    parts = _parts(scene)
+    bodies = bodies_at_rest(scene.count + len(parts))
+    ice_velocity = case.ice.initial_velocity
+    if ice_velocity == "current":
+        ice_velocity = (*case.water.velocity, 0.0) if case.water.enabled else (0.0, 0.0, 0.0)
+    bodies.position[: scene.count], bodies.orientation[: scene.count] = scene.position, scene.orientation
+    bodies.velocity[scene.explicit : scene.count] = ice_velocity
+    for i, given in enumerate(case.body):
+        bodies.velocity[i], bodies.angular_velocity[i] = given.velocity, given.angular_velocity
+        if not given.fixed:
+            turn = matrix_from_quaternion(scene.orientation[i])
+            bodies.angular_momentum[i] = turn @ model.solids.inertia[i] @ turn.T @ given.angular_velocity
+    for i, part in enumerate(parts, start=scene.count):
+        bodies.position[i], bodies.orientation[i] = part.position, part.orientation
+    bodies.middle_velocity[:] = bodies.velocity
+    bodies.middle_angular_velocity[:] = bodies.angular_velocity
+    bodies.middle_angular_momentum[:] = bodies.angular_momentum
+    return bodies
+
+
+def charts_of(case: Case, scene: Scene) -> list[Chart]:
+    """The charts of all structures' load maps."""
+    extent = math.hypot(*case.domain.size)
+    return [structure.about.chart(extent) for structure in scene.structures]
+
+
+def _pack_charts(case: Case, scene: Scene) -> Charts:
+    charts = charts_of(case, scene)
+    count = len(charts)
+    outlines = [np.zeros((0, 2)) if chart.outline is None else chart.outline for chart in charts]
+    origin, axis, length = np.zeros((count, 3)), np.zeros((count, 3)), np.zeros(count)
+    for s, chart in enumerate(charts):
+        if chart.along == Along.LINE:
+            origin[s], axis[s], length[s] = chart.origin, chart.axis, chart.half
+        elif chart.along == Along.OUTLINE:
+            length[s] = perimeter(chart.outline)
+    return Charts(
+        center=np.reshape([structure.about.place for structure in scene.structures], (-1, 3)),
+        along=np.array([chart.along for chart in charts], np.int64),
+        origin=origin,
+        axis=axis,
+        length=length,
+        heights=np.tile([factor * case.ice.thickness for factor in MAP_HEIGHTS], (count, 1)),
+        outline_start=offsets([len(outline) for outline in outlines]),
+        outline=np.concatenate([np.zeros((0, 2)), *outlines]),
+    )

@@ -1,0 +1,27 @@
+"""How places on structures are laid out flat in their load maps. Constant during a run."""
+
+from enum import IntEnum
+from typing import NamedTuple
+
+import numpy as np
+
+
+class Along(IntEnum):
+    """What the first coordinate of a load map runs along."""
+
+    ANGLE = 0  # around an upright axis through the structure's centre
+    LINE = 1  # along a horizontal line
+    OUTLINE = 2  # around a polygon in plan
+
+
+class Charts(NamedTuple):
+    """Of s structures; their outlines in plan stand one after the other."""
+
+    center: np.ndarray  # (s, 3) m, about which moments are stated
+    along: np.ndarray  # (s,) Along
+    origin: np.ndarray  # (s, 3) m, of a line
+    axis: np.ndarray  # (s, 3) unit vector of a line
+    length: np.ndarray  # (s,) m, half that of a line, all of an outline
+    heights: np.ndarray  # (s, 2) m, lowest and highest height over the water
+    outline_start: np.ndarray  # (s + 1,)
+    outline: np.ndarray  # (p, 2) m, corners from the centre, counter-clockwise
