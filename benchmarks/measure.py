@@ -66,7 +66,7 @@ class Replay:
                     now[...] = then
             else:
                 setattr(state, name, grown(group, len(group.a)) if name == "pairs" else _copied(group))
-        self.simulation._make_room()  # a workspace may remember steps that are to come again
+        self.simulation.make_room()  # a workspace may remember steps that are to come again
         self._run(1)
 
     def seconds(self) -> float:

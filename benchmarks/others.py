@@ -27,9 +27,9 @@ command = cli.app
 def app():
     from dilatedem.run.simulation import Simulation
     whole = Simulation.advance
-    def first(self, steps, *, dt=None):
-        if dt is not None or self.model.floating < 2:
-            return whole(self, steps, dt=dt)
+    def first(self, steps):
+        if self.model.floating < 2:
+            return whole(self, steps)
         whole(self, 1)
         print("first step", time.time(), flush=True)
         os._exit(0)
@@ -42,25 +42,25 @@ cli.main()
 #: the paper's case for a while: from the opening of its folder to the end, all that is not `advance` (its replays included) counts
 _FILES = """
 import sys, time
-from dilatedem.run import simulation
+from dilatedem.run import loop
 from dilatedem.case.load import load
-from dilatedem.run.output import RunOutput
+from dilatedem.run.simulation import Simulation
 from pathlib import Path
 spent = [0.0]
-advance, fresh = simulation.Simulation.advance, RunOutput.fresh
-def clocked(self, steps, *, dt=None):
+advance, opened = Simulation.advance, loop.RunFolder
+def clocked(self, steps):
     spent[0] += time.perf_counter()
-    status = advance(self, steps, dt=dt)
+    status = advance(self, steps)
     spent[0] -= time.perf_counter()
     return status
-def opened(run, out):
+def opening(*arguments, **options):
     spent[0] = -time.perf_counter()
-    return fresh(run, out)
-simulation.compile_kernels()
-simulation.Simulation.advance, RunOutput.fresh = clocked, opened
+    return opened(*arguments, **options)
+loop.compile_kernels()
+Simulation.advance, loop.RunFolder = clocked, opening
 case = load(sys.argv[1], ["time.duration=" + sys.argv[2]])
 began = time.perf_counter()
-simulation.run(case, Path(sys.argv[3]), quiet=True)
+loop.run(case, Path(sys.argv[3]), quiet=True)
 ended = time.perf_counter()
 print("files", spent[0] + ended, ended - began)
 """
@@ -76,7 +76,7 @@ from dilatedem.run.pace import total_steps
 case = load(sys.argv[1], [])
 simulation = Simulation.of_case(case)
 simulation.state.pairs = grown(simulation.state.pairs, 4 * len(simulation.state.pairs.a))
-simulation._make_room()
+simulation.make_room()
 simulation.evaluate()
 steps = total_steps(case, simulation.dt)
 found, _ = timed(simulation, steps, calls=round(case.time.duration / case.output.energy_interval))
@@ -190,7 +190,7 @@ def generate() -> list[dict]:
 
 def paper() -> list[dict]:
     """Wall time of the whole paper case as a user runs it, compiled kernels at hand; time of its steps by stage."""
-    _run(["-c", "from dilatedem.run.simulation import compile_kernels; compile_kernels()"])
+    _run(["-c", "from dilatedem.run.loop import compile_kernels; compile_kernels()"])
     with tempfile.TemporaryDirectory() as folder:
         _, spent, _ = _run(["-m", "dilatedem.cli", "run", str(PAPER_CASE), "--out", str(Path(folder) / "run"), "--quiet"])
     words = _run(["-c", _PROFILE, str(PAPER_CASE)])[0].split()

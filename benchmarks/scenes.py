@@ -22,7 +22,7 @@ from benchmarks.tiling import (
 )
 from dilatedem.case.schema import Case
 from dilatedem.run.simulation import PAIRS_PER_BODY, Simulation, State
-from dilatedem.state.bodies import Bodies
+from dilatedem.state.bodies import Bodies, Ids
 from dilatedem.state.clock import Status, clock_at_start
 from dilatedem.state.ledger import empty_ledger
 from dilatedem.state.loads import empty_loads
@@ -111,7 +111,7 @@ def tiled(tile: Simulation, along_x: int, along_y: int, *, threads: int = 1) -> 
     bodies: Bodies = repeated_bodies(tile.state.bodies, floating, moves)
     loads = empty_loads(len(model.charts.center))
     pairs = empty_pairs(PAIRS_PER_BODY * len(bodies.path) + 64)
-    state = State(bodies, pairs, empty_ledger(), loads, clock_at_start(), type(tile.state.totals)())
+    state = State(Ids(np.arange(model.floating)), bodies, pairs, empty_ledger(), loads, clock_at_start())
     return replace(tile, model=model, state=state, threads=threads)
 
 

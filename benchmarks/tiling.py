@@ -5,19 +5,10 @@ Building a floe's shape takes a millisecond, and a hundred thousand of them two 
 
 import numpy as np
 
+from dilatedem.geometry.packing import selected
 from dilatedem.geometry.shapes import Hulls, Shapes
 from dilatedem.state.bodies import Bodies, Solids
 from dilatedem.state.charts import Charts
-
-#: what the rows of a packed array belong to; of the names in `_start` the rows that they count
-ROWS = {
-    "kind": "body", "radius": "body", "reach": "body", "plan_reach": "body", "plane_normal": "body", "prism": "body",
-    "plan": "body", "height": "body", "effective_radius": "body",
-    "vertex_start": "body", "face_start": "body", "neighbour_start": "vertex", "loop_start": "face",
-    "vertex": "vertex", "face_normal": "face", "neighbour": "neighbour", "loop": "loop",
-}  # fmt: skip
-#: arrays that hold numbers of vertices
-VERTEX_NUMBERS = ("neighbour", "loop")
 
 
 def _repeat(array: np.ndarray, first: int, copies: int) -> np.ndarray:
@@ -25,41 +16,14 @@ def _repeat(array: np.ndarray, first: int, copies: int) -> np.ndarray:
     return np.concatenate([*[array[:first]] * copies, *[array[first:]] * copies])
 
 
-def _repeat_numbers(numbers: np.ndarray, first: int, copies: int, floes: int, total: int) -> np.ndarray:
-    """As `_repeat`, for numbers of vertices: `floes` of them belong to floes, of `total`."""
-    turn = np.arange(copies)[:, None]
-    of_floes = numbers[:first] + turn * floes
-    of_structures = numbers[first:] + (copies - 1) * floes + turn * (total - floes)
-    return np.concatenate([of_floes.ravel(), of_structures.ravel()]).astype(numbers.dtype)
-
-
-def _repeated(packed, floating: int, copies: int):
-    """`Shapes` or `Hulls` of a scene with `floating` floes, repeated."""
-    first = {"body": floating, "vertex": int(packed.vertex_start[floating]), "face": int(packed.face_start[floating])}
-    first["loop"] = int(packed.loop_start[first["face"]])
-    if hasattr(packed, "neighbour_start"):
-        first["neighbour"] = int(packed.neighbour_start[first["vertex"]])
-    arrays = {}
-    for name, array in packed._asdict().items():
-        rows = first[ROWS[name]]
-        if name.endswith("_start"):
-            counts = _repeat(np.diff(array), rows, copies)
-            arrays[name] = np.concatenate([[0], np.cumsum(counts)]).astype(array.dtype)
-        elif name in VERTEX_NUMBERS:
-            arrays[name] = _repeat_numbers(array, rows, copies, first["vertex"], len(packed.vertex))
-        else:
-            arrays[name] = _repeat(array, rows, copies)
-    return type(packed)(**arrays)
-
-
 def repeated_shapes(shapes: Shapes, floating: int, copies: int) -> Shapes:
     """Cores of `copies` scenes of `floating` floes each."""
-    return _repeated(shapes, floating, copies)
+    return selected(shapes, _repeat(np.arange(len(shapes.radius)), floating, copies))
 
 
 def repeated_hulls(hulls: Hulls, copies: int) -> Hulls:
     """Outer polyhedra of `copies` scenes."""
-    return _repeated(hulls, len(hulls.prism), copies)
+    return selected(hulls, np.tile(np.arange(len(hulls.prism)), copies))
 
 
 def repeated_solids(solids: Solids, floating: int, copies: int) -> Solids:

@@ -16,7 +16,7 @@ from dilatedem.motion.energy import book_energies
 from dilatedem.motion.paces import foresee
 from dilatedem.motion.timestep import assembled_frequency
 from dilatedem.step.advance import DONE, PAIRS_FULL, TOO_DEEP, TOO_FAST
-from dilatedem.step.blocks import collide_pairs, complete_spins, drift_bodies, load_and_kick, longest_path, surprised
+from dilatedem.step.blocks import collide_pairs, complete_spins, drift_bodies, load_and_kick, longest_path, surprised, tick
 from dilatedem.structures.record import end_window, load_structures, record_loads
 
 #: stages in the order of the step; `booked` of `timed_advance` has a row for each
@@ -60,13 +60,13 @@ def clock_cost(readings: int = 200_000) -> float:
 
 @kernel
 def timed_advance(
-    team, model, bodies, pairs, spare, cells, workspace, tally, ledger, loads, windows, clock, dt, span, steps, booked, timespec
+    team, model, bodies, pairs, spare, cells, workspace, tally, ledger, loads, windows, clock, span, steps, booked, timespec
 ):
     """As `advance`, and adds up the time of each stage.
 
     booked (stages, 2) int64 [ns, readings of the clock] is added to; timespec (2,) int64: room.
     """
-    status, goal = DONE, clock.step[0] + steps
+    status, goal, dt = DONE, clock.step[0] + steps, clock.dt[0]
     while status == DONE and clock.step[0] < goal:
         t = _now(timespec)
         if longest_path(bodies) >= pairs.limit[0] and not find_pairs(model, bodies, pairs, spare, cells, clock):
@@ -82,7 +82,7 @@ def timed_advance(
                 status = TOO_FAST
                 break
             t = _lap(booked, DRIFT, timespec, t)
-            clock.step[0] += 1
+            tick(clock)
             clock.moves[0] += busy
             awake, at_structure = awake_pairs(near, model.structure_of, bodies, pairs, workspace)
             t = _lap(booked, WAKE, timespec, t)
@@ -115,9 +115,10 @@ def timed(simulation, steps: int, *, calls: int = 1) -> tuple[dict[str, float], 
     pairs."""
     booked, timespec, evaluations = np.zeros((len(STAGES), 2), np.int64), np.zeros(2, np.int64), simulation.state.clock.evaluations
     before, taken = int(evaluations[0]), 0
+    simulation.state.clock.dt[0] = simulation.dt
     for call in range(1, calls + 1):
         piece, taken = steps * call // calls - taken, steps * call // calls
-        status = simulation._call(timed_advance, simulation.dt, simulation.span, piece, booked, timespec)
+        status = simulation.call(timed_advance, simulation.span, piece, booked, timespec)
         if status != DONE:
             raise RuntimeError(f"the timed run came back with {status.name}")
     cost = clock_cost()

@@ -131,9 +131,9 @@ def run(
         raise CaseError("give either --resume or --overwrite, not both")
     folder = out or _default_out(case)
     loaded = load(case, overrides or ())
-    from dilatedem.run import simulation  # after the case: a wrong key is answered without loading the kernels
+    from dilatedem.run import loop  # after the case: a wrong key is answered without loading the kernels
 
-    simulation.run(loaded, folder, threads=threads, resume=resume, overwrite=overwrite, quiet=quiet)
+    loop.run(loaded, folder, threads=threads, resume=resume, overwrite=overwrite, quiet=quiet)
     if not quiet:
         print(_headline(folder))
 
@@ -166,9 +166,9 @@ def check(case: CaseArgument, overrides: SetOption = None) -> None:
     from dilatedem.case.load import load
 
     loaded = load(case, overrides or ())
-    from dilatedem.run import simulation  # after the case: a wrong key is answered without loading the kernels
+    from dilatedem.run import foretell  # after the case: a wrong key is answered without loading the kernels
 
-    _print_pairs(simulation.check(loaded))
+    _print_pairs(foretell.check(loaded))
 
 
 @app.command()

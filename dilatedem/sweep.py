@@ -154,7 +154,7 @@ def _compile_once(models: set[str]) -> None:
     left to the cases, which meet the same fault and report it.
     """
     for model in sorted(models):
-        command = [sys.executable, "-c", f"from dilatedem.run.simulation import compile_kernels; compile_kernels(model={model!r})"]
+        command = [sys.executable, "-c", f"from dilatedem.run.loop import compile_kernels; compile_kernels(model={model!r})"]
         subprocess.run(command, stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL, check=False)
 
 

@@ -9,9 +9,9 @@ CASES = Path(__file__).parent / "cases"
 
 def _completed_run(tmp_path_factory, name: str) -> Path:
     from dilatedem.case.load import load
-    from dilatedem.run import simulation
+    from dilatedem.run import loop
 
-    return simulation.run(load(CASES / f"{name}.toml"), tmp_path_factory.mktemp("runs") / name, quiet=True)
+    return loop.run(load(CASES / f"{name}.toml"), tmp_path_factory.mktemp("runs") / name, quiet=True)
 
 
 @pytest.fixture(scope="session")

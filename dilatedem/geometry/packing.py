@@ -68,3 +68,30 @@ def pack_neighbours(
 def _numbered_stacks(polyhedra: Sequence[Polyhedron], order: np.ndarray | None) -> list[tuple[Polyhedron, np.ndarray]]:
     stacks = [body.stacked() for body in polyhedra]
     return list(zip(stacks, numbered([len(stack.vertices) for stack in stacks], order), strict=True))
+
+
+def selected(packed, bodies: np.ndarray):
+    """Packed arrays with the bodies `bodies` (k,) of others, in this order; one that is named twice is there twice.
+
+    packed: a `PackedPolyhedra`, `shapes.Shapes` or `shapes.Hulls`; the same kind is returned.
+    """
+    vertices, vertex_start = _entries(packed.vertex_start, bodies)
+    faces, face_start = _entries(packed.face_start, bodies)
+    loops, loop_start = _entries(packed.loop_start, faces)
+    moved = vertex_start[:-1] - packed.vertex_start[bodies]  # of a body's vertices
+    rows = {"vertex": vertices, "face_normal": faces}
+    made = {"vertex_start": vertex_start, "face_start": face_start, "loop_start": loop_start}
+    made["loop"] = packed.loop[loops] + np.repeat(moved, np.diff(loop_start[face_start]))
+    if hasattr(packed, "neighbour_start"):
+        neighbours, made["neighbour_start"] = _entries(packed.neighbour_start, vertices)
+        made["neighbour"] = packed.neighbour[neighbours] + np.repeat(moved, np.diff(made["neighbour_start"][vertex_start]))
+    for name, array in packed._asdict().items():
+        made[name] = made[name].astype(array.dtype) if name in made else array[rows.get(name, bodies)]
+    return type(packed)(**made)
+
+
+def _entries(start: np.ndarray, rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Which entries of a flat array belong to some of its rows, and where those rows begin when only they are left."""
+    counts = (start[1:] - start[:-1])[rows]
+    begin = offsets(counts)
+    return np.arange(begin[-1]) + np.repeat(start[:-1][rows] - begin[:-1], counts), begin

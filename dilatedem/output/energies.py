@@ -1,7 +1,11 @@
-"""Energies of a run: noted as they come, made rows of energy.csv many at once."""
+"""energy.csv: energies are noted as they come and made rows many at once."""
+
+from dataclasses import asdict, dataclass
 
 import numpy as np
 
+from dilatedem.output import folder
+from dilatedem.output.observer import TableObserver
 from dilatedem.output.tables import ENERGY_COLUMNS
 
 #: energy terms that are stored (their change counts), and those that came in (+) or went out (-)
@@ -9,8 +13,17 @@ STORED = ("kinetic", "gravity", "buoyancy", "elastic")
 FLOWS = {"work_drag": 1.0, "work_structure": 1.0, "gain_law": 1.0, "loss_damping": -1.0, "loss_friction": -1.0}
 
 
-def work_up(noted: list[list[float]], names: list[str], totals) -> np.ndarray:
-    """Bring energies into the totals of the run; returns their rows of energy.csv.
+@dataclass
+class Totals:
+    """What all rows of energy.csv say together."""
+
+    initial_energy: float | None = None  # J
+    largest_residual: float = 0.0  # J
+    largest_step_ratio: float = 0.0  # dt over the critical step of the open contacts
+
+
+def work_up(noted: list[list[float]], names: list[str], totals: Totals) -> np.ndarray:
+    """Bring energies into the totals; returns their rows of energy.csv.
 
     noted: time [s], dt over the critical step, and the terms called `names` [J] of each moment. A row on its own would take 20 us.
     """
@@ -24,3 +37,40 @@ def work_up(noted: list[list[float]], names: list[str], totals) -> np.ndarray:
     totals.largest_residual = max(totals.largest_residual, float(np.abs(values["residual"]).max()))
     totals.largest_step_ratio = max(totals.largest_step_ratio, float(values["step_ratio"].max()))
     return np.column_stack([values[name] for name in ENERGY_COLUMNS])
+
+
+class Energies(TableObserver):
+    """energy.csv: the ledger in time, and the largest residual of all its rows."""
+
+    name, file, columns = "energy", folder.ENERGY, ENERGY_COLUMNS
+
+    @classmethod
+    def interval(cls, case) -> float:
+        return case.output.energy_interval
+
+    def open(self, kept: dict | None, since: int) -> None:
+        super().open(kept, since)
+        self.totals = Totals(**kept["totals"]) if kept else Totals()
+        self._noted: list[list[float]] = []  # time, step ratio and energies, since the last refresh
+
+    def look(self, step: int, last: bool) -> None:
+        if last or self.schedule.is_due(step):
+            simulation = self.simulation
+            self._noted.append([simulation.time_s, simulation.assembled_step_ratio(), *simulation.energies().values()])
+
+    def refresh(self) -> None:
+        noted, self._noted = self._noted, []
+        rows = work_up(noted, list(self.simulation.energies()), self.totals)
+        self.put(lambda table: table.append(rows))
+
+    def kept(self) -> dict:
+        return {"totals": asdict(self.totals)}
+
+    def summary(self) -> dict:
+        terms = self.simulation.energies() if self.simulation.state.clock.step[0] else {}
+        work, residual = abs(terms.get("work_drag", 0.0)), self.totals.largest_residual
+        return {
+            "dt_over_critical_of_open_contacts": self.totals.largest_step_ratio,
+            "energy": {f"{name}_J": value for name, value in terms.items()}
+            | {"residual_J": residual, "residual_over_work": residual / work if work else None},
+        }

@@ -7,9 +7,11 @@ FORCES = "forces.csv"
 ENERGY = "energy.csv"
 BODIES = "bodies.csv"
 ICE_COLLECTION = "ice.pvd"
+SNAPSHOTS = "snapshots"
 STRUCTURES = "structures.vtu"
 RUN_ARCHIVE = "run.h5"
 CHECKPOINT = "restart.h5"
+STOPPED = "stopped.h5"
 SUMMARY = "summary.json"
 
 RUN_MARKS = (CASE, FORCES, CHECKPOINT, SUMMARY)  # any one of them, and the folder holds a run
@@ -17,7 +19,7 @@ RUN_MARKS = (CASE, FORCES, CHECKPOINT, SUMMARY)  # any one of them, and the fold
 
 def snapshot_name(number: int) -> str:
     """Path of snapshot `number`, relative to the run folder, as the collection ice.pvd lists it."""
-    return f"snapshots/ice_{number:06d}.vtu"
+    return f"{SNAPSHOTS}/ice_{number:06d}.vtu"
 
 
 def holds_run(folder) -> bool:
@@ -28,8 +30,8 @@ def holds_run(folder) -> bool:
 def clear(folder: Path) -> None:
     """Remove an earlier run's files from a folder that was given to be overwritten."""
     names = (CASE, FORCES, ENERGY, BODIES, ICE_COLLECTION, STRUCTURES)
-    for name in (*names, RUN_ARCHIVE, CHECKPOINT, SUMMARY, "stopped.h5", "report.html"):
+    for name in (*names, RUN_ARCHIVE, CHECKPOINT, SUMMARY, STOPPED, "report.html"):
         (folder / name).unlink(missing_ok=True)
-    for part in ("snapshots", "figures"):
+    for part in (SNAPSHOTS, "figures"):
         for file in (folder / part).glob("*"):
             file.unlink()

@@ -14,8 +14,9 @@ from html import escape  # that of xml.sax loads half of the web with it
 
 import numpy as np
 
-from dilatedem.geometry.packing import PackedPolyhedra, pack_polyhedra
+from dilatedem.geometry.packing import PackedPolyhedra, pack_polyhedra, selected
 from dilatedem.geometry.polyhedron import Polyhedron
+from dilatedem.geometry.shapes import Hulls
 from dilatedem.numerics.frames import matrix_from_quaternion
 from dilatedem.output.atomic import replacing, write_text
 
@@ -45,17 +46,21 @@ class SnapshotWriter:
     """
 
     def __init__(self, outers: Sequence[Polyhedron], order: np.ndarray | None = None):
-        stacks = [outer.stacked() for outer in outers]
-        counts = np.concatenate([np.zeros(0, np.int64), *(np.full(len(s.vertices), s.vertices.shape[1]) for s in stacks)])
-        order = np.arange(len(counts)) if order is None else order
-        by_body = np.empty_like(counts)
-        by_body[order] = counts
-        self._order = np.argsort(by_body, kind="stable")
-        place_in_file = np.empty_like(self._order)
-        place_in_file[self._order] = np.arange(len(counts))
-        packed = pack_polyhedra(stacks, place_in_file[order])
+        self._lay_out(pack_polyhedra(outers, order))
+
+    @classmethod
+    def of_hulls(cls, hulls: Hulls) -> "SnapshotWriter":
+        """For the outer shapes of all bodies that float."""
+        self = cls.__new__(cls)
+        self._lay_out(hulls)
+        return self
+
+    def _lay_out(self, bodies: PackedPolyhedra | Hulls) -> None:
+        corners = np.diff(bodies.vertex_start)
+        self._order = np.argsort(corners, kind="stable")
+        packed = selected(bodies, self._order)
         self._vertices = packed.vertex
-        self._owner = np.repeat(self._order, by_body[self._order])
+        self._owner = np.repeat(self._order, corners[self._order])
         self._begin = (
             f'<?xml version="1.0"?>\n<VTKFile type="UnstructuredGrid" version="0.1" header_type="UInt32" '
             f'byte_order="{"LittleEndian" if sys.byteorder == "little" else "BigEndian"}" '
@@ -140,7 +145,7 @@ def _checked(cell_data: dict[str, np.ndarray], count: int) -> dict[str, np.ndarr
     return arrays
 
 
-def _cells_element(packed: PackedPolyhedra) -> bytes:
+def _cells_element(packed: PackedPolyhedra | Hulls) -> bytes:
     """The Cells element: per cell its vertices, and its faces as [faces, (vertices, vertex, ...) of each]."""
     cells, faces = len(packed.vertex_start) - 1, np.diff(packed.face_start)
     cell = np.repeat(np.arange(cells), faces)  # of each face

@@ -16,9 +16,10 @@ import numpy as np
 
 from dilatedem.errors import Interrupted
 from dilatedem.output import checkpoint
+from dilatedem.output.observer import Observer
 from dilatedem.output.schedule import Schedule
 from dilatedem.state.bodies import Bodies
-from dilatedem.state.clock import Status, clock_at_start
+from dilatedem.state.clock import NEVER, Status, clock_at
 from dilatedem.state.ledger import empty_ledger
 from dilatedem.state.loads import Windows, empty_loads
 from dilatedem.state.pairs import PackedPairs, packed, unpacked
@@ -129,6 +130,28 @@ class Watch:
             setattr(self, name, value)
 
 
+class LoadWatch(Observer):
+    """Has the watch, where the case asks for one, look at every window of loads."""
+
+    name = "watch"
+
+    def open(self, kept: dict | None, since: int) -> None:
+        self._looked_at = 0  # windows that wait to be written and were looked at
+
+    def next_due(self, step: int) -> int:
+        watch = self.simulation.state.watch
+        return watch.windows.next_due(step) if watch else NEVER
+
+    def look(self, step: int, last: bool) -> None:
+        state, windows = self.simulation.state, self.simulation.windows
+        if state.watch:
+            state.watch.look(state, windows, self._looked_at)
+            self._looked_at = int(windows.count[0])
+
+    def refresh(self) -> None:
+        self._looked_at = 0
+
+
 def check(simulation, names: list[str], asked: Callable[[], bool] = lambda: False) -> dict:
     """What summary.json says of the error of the step; docs/output.md explains each entry.
 
@@ -181,7 +204,7 @@ def replay(simulation, steps: int, parts: int, asked: Callable[[], bool]) -> dic
     state = replace(
         simulation.state, bodies=Bodies(*(values.copy() for values in copy.bodies)),
         pairs=unpacked(copy.pairs, 2 * len(copy.pairs.a) + 64), ledger=empty_ledger(),
-        loads=empty_loads(len(loads.step_contacts)), clock=clock_at_start(),
+        loads=empty_loads(len(loads.step_contacts)), clock=clock_at(copy.step * simulation.dt),
     )  # fmt: skip
     again = replace(simulation, state=state, dt=simulation.dt / parts)
     left = steps * parts
@@ -191,9 +214,8 @@ def replay(simulation, steps: int, parts: int, asked: Callable[[], bool]) -> dic
         chunk = min(left, -(-CHUNK // again.span) * again.span)
         status = again.advance(chunk)
         if status != Status.DONE:
-            time_s = copy.step * simulation.dt + again.time_s
             share = "half the step" if parts == 2 else "the run's own step"
-            raise ReplayFault(f"the replay with {share} stopped at t = {time_s:.6g} s ({status.name})")
+            raise ReplayFault(f"the replay with {share} stopped at t = {again.time_s:.6g} s ({status.name})")
         left -= chunk
     # trapezoids: at the ends of the window a force may be acting, and counting it whole would look like an error of the step
     ends = 0.5 * (state.loads.step_load[s] - copy.moment.step_load[s])

@@ -5,6 +5,7 @@ from fractions import Fraction
 
 from dilatedem.case.schema import Case
 from dilatedem.errors import CaseError
+from dilatedem.run.observers import intervals
 
 #: s that a step of a body which nothing can touch may last: a thousandth of the time in which the water's loads change
 LONGEST_SPAN = 1e-3
@@ -28,7 +29,7 @@ def time_step(case: Case, critical: float) -> float:
         return case.time.step
     output = case.output
     window, longest = output.force_interval, min(case.time.step_fraction * critical, output.force_interval, case.time.duration)
-    common = _common_part(_intervals(case))
+    common = _common_part(intervals(case))
     if common >= SHORTEST_WINDOW * longest:
         window = common
     steps, span = math.ceil(window / longest - 1e-9), longest_span(longest)
@@ -36,16 +37,9 @@ def time_step(case: Case, critical: float) -> float:
     return window / (-(-steps // span) * span)
 
 
-def _intervals(case: Case) -> list[float]:
-    """Intervals [s] at which something is written."""
-    output = case.output
-    intervals = [output.force_interval, output.energy_interval, output.snapshot_interval, output.checkpoint_interval]
-    return [interval for interval in intervals + [output.track_interval] * bool(output.track) if interval > 0.0]
-
-
-def _common_part(intervals: list[float]) -> float:
-    """The longest time [s] of which all intervals are multiples, taken as the decimal numbers they were written as."""
-    exact = [Fraction(repr(interval)) for interval in intervals]
+def _common_part(times: list[float]) -> float:
+    """The longest time [s] of which all these are multiples, taken as the decimal numbers they were written as."""
+    exact = [Fraction(repr(interval)) for interval in times]
     scale = math.lcm(*(interval.denominator for interval in exact))
     return float(Fraction(math.gcd(*(int(interval * scale) for interval in exact)), scale))
 
@@ -60,7 +54,7 @@ def free_span(case: Case, dt: float) -> int:
 
     What else falls due within a span is written at its end (`Schedule`); no span is longer than a sixteenth of such an interval.
     """
-    window, *others = (interval / dt for interval in _intervals(case))
+    window, *others = (interval / dt for interval in intervals(case))
     spans = [span for span in range(1, longest_span(dt) + 1) if span == 1 or _divides(span, window)]
     return max(span for span in spans if all(_divides(span, other) or 16 * span <= other for other in others) or span == 1)
 

@@ -1,7 +1,5 @@
 """From a scene to the arrays that kernels work on: what is constant, and how all bodies move at the start."""
 
-import math
-
 import numpy as np
 
 from dilatedem.case.schema import Case
@@ -14,7 +12,7 @@ from dilatedem.state.bodies import Bodies, Solids, bodies_at_rest
 from dilatedem.state.charts import Along, Charts
 from dilatedem.state.model import Model
 from dilatedem.state.setting import ConsistentSetting, ContactModel, ContactSetting, Surroundings
-from dilatedem.structures.kind import Chart, Part, perimeter
+from dilatedem.structures.kind import Part, perimeter
 
 #: a load map's heights reach from so many ice thicknesses below the water level to so many above
 MAP_HEIGHTS = (-1.5, 1.0)
@@ -84,13 +82,12 @@ def _solids(case: Case, scene: Scene) -> Solids:
     count = bodies + len(of_structures)
     mass, inverse_mass, compliance = np.zeros(count), np.zeros(count), np.zeros(count)
     inertia, inverse_inertia = np.zeros((count, 3, 3)), np.zeros((count, 3, 3))
-    density = np.full(bodies, case.ice.density)
     free = np.ones(bodies, np.bool_)
     compliance[:bodies], compliance[bodies:] = _compliance(case.ice), of_structures
     for i, given in enumerate(case.body):
-        density[i], free[i], compliance[i] = given.density, not given.fixed, _compliance(given)
-    mass[:bodies] = scene.volume() * density
-    inertia[:bodies] = scene.unit_inertia() * density[:, None, None]
+        free[i], compliance[i] = not given.fixed, _compliance(given)
+    mass[:bodies] = scene.mass()
+    inertia[:bodies] = scene.unit_inertia() * scene.density[:, None, None]
     moving = np.flatnonzero(free)
     inverse_mass[moving] = 1.0 / mass[moving]
     inverse_inertia[moving] = np.linalg.inv(inertia[moving])
@@ -124,14 +121,8 @@ def initial_bodies(case: Case, scene: Scene, model: Model) -> Bodies:
     return bodies
 
 
-def charts_of(case: Case, scene: Scene) -> list[Chart]:
-    """The charts of all structures' load maps."""
-    extent = math.hypot(*case.domain.size)
-    return [structure.about.chart(extent) for structure in scene.structures]
-
-
 def _pack_charts(case: Case, scene: Scene) -> Charts:
-    charts = charts_of(case, scene)
+    charts = [structure.chart for structure in scene.structures]
     count = len(charts)
     outlines = [np.zeros((0, 2)) if chart.outline is None else chart.outline for chart in charts]
     origin, axis, length = np.zeros((count, 3)), np.zeros((count, 3)), np.zeros(count)

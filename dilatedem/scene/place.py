@@ -1,5 +1,6 @@
 """Who stands where at t = 0: explicit bodies, generated floes, structures."""
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,7 +17,7 @@ from dilatedem.geometry.polyhedron import convex_hull, prism
 from dilatedem.geometry.shapes import BodyShape
 from dilatedem.numerics.frames import matrix_from_quaternion, quaternion_from_rotation_vector
 from dilatedem.state.storage import MOST_CORNERS
-from dilatedem.structures.kind import Part, Structure
+from dilatedem.structures.kind import Chart, Part, Structure
 from dilatedem.structures.plane import Plane
 
 #: corners of a face after clipping by another: both counts together have to fit into the workspace
@@ -39,10 +40,11 @@ class PlacedBody:
 
 @dataclass(frozen=True, eq=False)
 class PlacedStructure:
-    """A structure and its bodies."""
+    """A structure, its bodies, and how its load map is laid out."""
 
     about: Structure
     parts: list[Part]
+    chart: Chart
 
     @property
     def name(self) -> str:
@@ -64,6 +66,7 @@ class Scene:
     orientation: np.ndarray  # (n, 4) unit quaternion, body to world
     outlines: plan.Outlines  # as seen from above, world coordinates, m
     plan_area: np.ndarray  # (n,) m2
+    density: np.ndarray  # (n,) kg/m3
     structures: list[PlacedStructure]
     field: FloeField
 
@@ -75,9 +78,17 @@ class Scene:
         """(n,) of the dilated bodies [m3]."""
         return self._in_order([np.reshape(shape.properties.volume, -1) for shape in self.shapes])
 
+    def mass(self) -> np.ndarray:
+        """(n,) [kg]."""
+        return self.volume() * self.density
+
     def unit_inertia(self) -> np.ndarray:
         """(n, 3, 3) [m5] about the centroid, body frame, for unit density."""
         return self._in_order([np.reshape(shape.properties.inertia, (-1, 3, 3)) for shape in self.shapes])
+
+    def core_vertices(self) -> np.ndarray:
+        """(n,) vertices of each core."""
+        return self._in_order([np.full(shape.count, shape.core.stacked().vertices.shape[1]) for shape in self.shapes])
 
     def _in_order(self, parts: list[np.ndarray]) -> np.ndarray:
         values = np.concatenate(parts)
@@ -118,6 +129,7 @@ def _scene(case: Case, explicit: list[PlacedBody], field: FloeField, structures:
         orientation=orientation,
         outlines=plan.Outlines.of([*(body.outline for body in explicit), *field.outlines]) if explicit else field.outlines,
         plan_area=np.concatenate([[body.plan_area for body in explicit], field.plan_area]),
+        density=np.concatenate([[body.density for body in case.body], np.full(len(field.outlines), case.ice.density)]),
         structures=structures,
         field=field,
     )
@@ -148,10 +160,10 @@ def _floe_field(case: Case, explicit: list[PlacedBody]) -> FloeField:
 
 def _structures(case: Case) -> list[PlacedStructure]:
     """The structures of a case and its walls with their bodies, those of half spaces last. Raises CaseError that names one."""
-    placed = []
+    placed, extent = [], math.hypot(*case.domain.size)
     for number, structure in enumerate([*case.structure, *_walls(case)]):
         try:
-            placed.append(PlacedStructure(structure, structure.parts()))
+            placed.append(PlacedStructure(structure, structure.parts(), structure.chart(extent)))
         except ValueError as fault:
             raise CaseError(f"structure.{number}: {fault}") from fault
     return sorted(placed, key=lambda structure: any(part.is_half_space for part in structure.parts))

@@ -15,6 +15,12 @@ class Solids(NamedTuple):
     compliance: np.ndarray  # (n,) (1 - nu^2)/E, 1/Pa: a body's term of Liu 2015, Eq. (7)
 
 
+class Ids(NamedTuple):
+    """Numbers of the bodies that float, as users know them. A row may stand for another body once some have come or gone."""
+
+    body: np.ndarray  # (floating,)
+
+
 class Bodies(NamedTuple):
     """Motion of n bodies at the same instant, and the loads that act on them."""
 

@@ -21,7 +21,11 @@ class Clock(NamedTuple):
     """How far a run is, why it stopped, and the work it has done: counts that are the same on every machine."""
 
     step: np.ndarray  # (1,) steps done
-    status: np.ndarray  # (1,) Status
+    time: np.ndarray  # (1,) s: `since_time` and the steps since `since_step`, so that no sum of steps drifts
+    dt: np.ndarray  # (1,) s, of the steps to come; 0 where loads alone are evaluated
+    since_step: np.ndarray  # (1,) step at which dt took its present value
+    since_time: np.ndarray  # (1,) s, the time then
+    begun: np.ndarray  # (1,) whether the loads of t = 0 were evaluated
     culprit: np.ndarray  # (2,) bodies at fault, -1 = none
     measure: np.ndarray  # (1,) the move or the overlap at fault, m
     moves: np.ndarray  # (1,) bodies moved, each once in a step or, idle ones, in a span
@@ -31,6 +35,18 @@ class Clock(NamedTuple):
     frequency: np.ndarray  # (1,) rad/s, bound on that of the contacts that were open when `advance` came back
 
 
+_REAL = ("time", "dt", "since_time", "measure", "frequency")
+
+
 def clock_at_start() -> Clock:
-    counts = {name: np.zeros(1, np.int64) for name in Clock._fields}
-    return Clock(**counts | {"culprit": np.full(2, -1, np.int64), "measure": np.zeros(1), "frequency": np.zeros(1)})
+    """At t = 0, nothing done yet."""
+    counts = {name: np.zeros(1, np.float64 if name in _REAL else np.int64) for name in Clock._fields}
+    return Clock(**counts | {"culprit": np.full(2, -1, np.int64)})
+
+
+def clock_at(time: float) -> Clock:
+    """In the middle of a run, at `time` [s], its steps counted from here."""
+    clock = clock_at_start()
+    clock.time[0] = clock.since_time[0] = time
+    clock.begun[0] = 1
+    return clock

@@ -7,21 +7,21 @@ from dilatedem.motion.energy import book_energies
 from dilatedem.motion.paces import foresee
 from dilatedem.motion.timestep import assembled_frequency
 from dilatedem.state.clock import Status
-from dilatedem.step.blocks import collide_pairs, complete_spins, drift_bodies, load_and_kick, longest_path, surprised
+from dilatedem.step.blocks import collide_pairs, complete_spins, drift_bodies, load_and_kick, longest_path, surprised, tick
 from dilatedem.structures.record import end_window, load_structures, record_loads
 
 DONE, PAIRS_FULL, TOO_FAST, TOO_DEEP = int(Status.DONE), int(Status.PAIRS_FULL), int(Status.TOO_FAST), int(Status.TOO_DEEP)
 
 
 @kernel
-def advance(team, model, bodies, pairs, spare, cells, workspace, tally, ledger, loads, windows, clock, dt, span, steps):
-    """Advance all bodies by up to `steps` steps of dt [s]; returns a `Status`, its culprit in `clock`.
+def advance(team, model, bodies, pairs, spare, cells, workspace, tally, ledger, loads, windows, clock, span, steps):
+    """Advance all bodies by up to `steps` steps of `clock.dt`; returns a `Status`, its culprit in `clock`.
 
     team: `jit.Alone` or `jit.Team`. The method of Liu, Long & Ji (2015): move, meet, float. Bodies hold positions, velocities and
     loads of one instant, before and after; a step of dt = 0 moves nothing and only evaluates the loads, as a run needs at its
     start. span: bodies that nothing can touch take up to so many steps in one; 1 for the plain scheme.
     """
-    status, goal = DONE, clock.step[0] + steps
+    status, goal, dt = DONE, clock.step[0] + steps, clock.dt[0]
     while status == DONE and clock.step[0] < goal:
         if longest_path(bodies) >= pairs.limit[0] and not find_pairs(model, bodies, pairs, spare, cells, clock):
             status = PAIRS_FULL
@@ -33,7 +33,7 @@ def advance(team, model, bodies, pairs, spare, cells, workspace, tally, ledger, 
             if not drift_bodies(team, workspace.busy, busy, dt, model, bodies, pairs, workspace, clock):
                 status = TOO_FAST
                 break
-            clock.step[0] += 1
+            tick(clock)
             clock.moves[0] += busy
             awake, at_structure = awake_pairs(near, model.structure_of, bodies, pairs, workspace)
             collide_pairs(team, awake, dt, model, bodies, pairs, workspace, tally)

@@ -31,6 +31,13 @@ def part(count, block, blocks):
 
 
 @device
+def tick(clock):
+    """A step is done, and it is later."""
+    clock.step[0] += 1
+    clock.time[0] = clock.since_time[0] + (clock.step[0] - clock.since_step[0]) * clock.dt[0]
+
+
+@device
 def longest_path(bodies):
     longest = 0.0
     for i in range(len(bodies.path)):

@@ -33,7 +33,7 @@ def advanced(threads: int, start: dict | None = None) -> Simulation:
         return simulation
     for name, group in start.items():
         setattr(simulation.state, name, type(group)(*(np.copy(field) for field in group)))
-    simulation._make_room()
+    simulation.make_room()
     assert simulation.advance(COMPARED) == Status.DONE
     return simulation
 

@@ -6,13 +6,13 @@ import pytest
 from folders import CASES, assert_same_run, dilatedem
 
 from dilatedem.case.load import load
-from dilatedem.run import simulation
+from dilatedem.run import loop
 
 
 @pytest.mark.parametrize("name", ["crowded", "mixed"])
 def test_a_second_run_is_the_same(name, request, tmp_path):
     first = request.getfixturevalue(name)
-    simulation.run(load(CASES / f"{name}.toml"), tmp_path / name, quiet=True)
+    loop.run(load(CASES / f"{name}.toml"), tmp_path / name, quiet=True)
     assert_same_run(tmp_path / name, first)
 
 
@@ -20,7 +20,7 @@ def test_a_second_run_is_the_same(name, request, tmp_path):
 def test_two_threads_give_the_same_run(name, tmp_path):
     # short: on a busy machine the threads wait for each other in every step
     short = "time.duration=0.8"
-    simulation.run(load(CASES / f"{name}.toml", [short]), tmp_path / "one", quiet=True)
+    loop.run(load(CASES / f"{name}.toml", [short]), tmp_path / "one", quiet=True)
     done = dilatedem("run", CASES / f"{name}.toml", "--set", short, "--out", tmp_path / "two", "--threads", 2, "--quiet")
     assert (done.returncode, done.stderr) == (0, "")
     assert_same_run(tmp_path / "two", tmp_path / "one")
@@ -40,9 +40,9 @@ def test_the_case_file_of_a_run_repeats_it(crowded, tmp_path):
 
 def test_overwriting_leaves_nothing_of_the_run_before(mixed, tmp_path):
     out = tmp_path / "out"
-    simulation.run(load(CASES / "crowded.toml", ["time.duration=0.5"]), out, quiet=True)
+    loop.run(load(CASES / "crowded.toml", ["time.duration=0.5"]), out, quiet=True)
     (out / "figures").mkdir()
     (out / "figures" / "old.png").touch()
-    simulation.run(load(CASES / "mixed.toml"), out, overwrite=True, quiet=True)
+    loop.run(load(CASES / "mixed.toml"), out, overwrite=True, quiet=True)
     assert_same_run(out, mixed)
     assert not list((out / "figures").iterdir())

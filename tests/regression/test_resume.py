@@ -12,7 +12,7 @@ from folders import CASES, assert_same_run, command, dilatedem, environment, sav
 
 from dilatedem.case.load import load
 from dilatedem.errors import CaseError, Interrupted
-from dilatedem.run import simulation
+from dilatedem.run import loop
 from dilatedem.run.interruption import Interruption
 
 
@@ -32,7 +32,7 @@ class AskedAfter(Interruption):
 
 
 def interrupt_after(monkeypatch, looks: int) -> None:
-    monkeypatch.setattr(simulation, "Interruption", type("Asked", (AskedAfter,), {"looks": looks}))
+    monkeypatch.setattr(loop, "Interruption", type("Asked", (AskedAfter,), {"looks": looks}))
 
 
 @pytest.mark.parametrize(("name", "looks"), [("crowded", (0, 31, 60)), ("mixed", (7, 1, 9))])
@@ -41,10 +41,10 @@ def test_a_run_interrupted_three_times_equals_one_that_was_not(name, looks, requ
     for number, count in enumerate(looks):
         interrupt_after(monkeypatch, count)
         with pytest.raises(Interrupted, match=r"interrupted at t = \d"):
-            simulation.run(case, out, resume=number > 0, quiet=True)
+            loop.run(case, out, resume=number > 0, quiet=True)
         assert json.loads((out / "summary.json").read_text())["status"] == "interrupted"
     monkeypatch.undo()
-    simulation.run(case, out, resume=True, quiet=True)
+    loop.run(case, out, resume=True, quiet=True)
     assert_same_run(out, request.getfixturevalue(name))
     summary, expected = (json.loads((path / "summary.json").read_text()) for path in (out, request.getfixturevalue(name)))
     for key in ("status", "message", "steps", "loads", "energy", "contact", "simulated_s"):
@@ -101,32 +101,32 @@ def test_rows_and_snapshots_past_the_checkpoint_are_written_again(crowded, monke
     case, out = load(CASES / "crowded.toml"), tmp_path / "crowded"
     interrupt_after(monkeypatch, 40)
     with pytest.raises(Interrupted):
-        simulation.run(case, out, quiet=True)
+        loop.run(case, out, quiet=True)
     monkeypatch.undo()
     with open(out / "forces.csv", "ab") as forces:  # a kill in the middle of a row
         forces.write(b"3.9,pile,1,2")
     (out / "snapshots" / "ice_000011.vtu").write_text("half a snaps")
     (out / "snapshots" / "ice_000012.vtu.tmp").write_text("half a snaps")
-    simulation.run(case, out, resume=True, quiet=True)
+    loop.run(case, out, resume=True, quiet=True)
     assert_same_run(out, crowded)
 
 
 def test_a_completed_run_may_be_resumed_and_stays_as_it_is(crowded, tmp_path):
     out = tmp_path / "crowded"
-    simulation.run(load(CASES / "crowded.toml", ["time.duration=0.3"]), out, quiet=True)
+    loop.run(load(CASES / "crowded.toml", ["time.duration=0.3"]), out, quiet=True)
     before = {path: path.read_bytes() for path in out.rglob("*.*v*") if path.is_file()}
-    simulation.run(load(out / "case.toml"), out, resume=True, quiet=True)
+    loop.run(load(out / "case.toml"), out, resume=True, quiet=True)
     assert {path: path.read_bytes() for path in before} == before
 
 
 def test_resuming_needs_a_run_with_a_saved_state_of_the_same_case(crowded, tmp_path):
     with pytest.raises(CaseError, match="holds no run to resume"):
-        simulation.run(load(CASES / "crowded.toml"), tmp_path / "none", resume=True, quiet=True)
+        loop.run(load(CASES / "crowded.toml"), tmp_path / "none", resume=True, quiet=True)
     with pytest.raises(CaseError, match="is not the case given"):
-        simulation.run(load(CASES / "crowded.toml", ["contact.friction=0.2"]), crowded, resume=True, quiet=True)
+        loop.run(load(CASES / "crowded.toml", ["contact.friction=0.2"]), crowded, resume=True, quiet=True)
     (tmp_path / "case.toml").write_bytes((crowded / "case.toml").read_bytes())
     with pytest.raises(CaseError, match="no checkpoint to resume from"):
-        simulation.run(load(CASES / "crowded.toml"), tmp_path, resume=True, quiet=True)
+        loop.run(load(CASES / "crowded.toml"), tmp_path, resume=True, quiet=True)
 
 
 CHECKED = ["time.error_check=true", "time.duration=2.0"]
@@ -134,7 +134,7 @@ CHECKED = ["time.error_check=true", "time.duration=2.0"]
 
 @pytest.fixture(scope="module")
 def checked(tmp_path_factory):
-    return simulation.run(load(CASES / "crowded.toml", CHECKED), tmp_path_factory.mktemp("checked") / "run", quiet=True)
+    return loop.run(load(CASES / "crowded.toml", CHECKED), tmp_path_factory.mktemp("checked") / "run", quiet=True)
 
 
 def error_check(out: Path) -> dict:
@@ -150,10 +150,10 @@ def test_the_error_of_the_step_is_the_same_for_an_interrupted_run(looks, checked
     for number, count in enumerate(looks):
         interrupt_after(monkeypatch, count)
         with pytest.raises(Interrupted, match=r"interrupted at t = \d"):
-            simulation.run(case, out, resume=number > 0, quiet=True)
+            loop.run(case, out, resume=number > 0, quiet=True)
         assert "error_check" not in json.loads((out / "summary.json").read_text())
     monkeypatch.undo()
-    simulation.run(case, out, resume=True, quiet=True)
+    loop.run(case, out, resume=True, quiet=True)
     assert_same_run(out, checked)
     assert error_check(out) == error_check(checked)
     assert error_check(out)["reproduced"] is True and error_check(out)["at_dt"]["fh_max_N"] > 1e3
@@ -161,14 +161,14 @@ def test_the_error_of_the_step_is_the_same_for_an_interrupted_run(looks, checked
 
 def test_an_interrupted_check_is_made_again(checked, monkeypatch, tmp_path):
     case, out = load(CASES / "crowded.toml", CHECKED), tmp_path / "out"
-    simulation.run(load(CASES / "crowded.toml", CHECKED), out, quiet=True)
+    loop.run(load(CASES / "crowded.toml", CHECKED), out, quiet=True)
     interrupt_after(monkeypatch, 2)  # a completed run has no look at the keyboard but those of the check
     with pytest.raises(Interrupted, match=r"while the time step was checked; the run is saved, --resume checks again"):
-        simulation.run(case, out, resume=True, quiet=True)
+        loop.run(case, out, resume=True, quiet=True)
     summary = json.loads((out / "summary.json").read_text())
     assert summary["status"] == "interrupted" and summary["simulated_s"] == pytest.approx(2.0)
     monkeypatch.undo()
-    simulation.run(case, out, resume=True, quiet=True)
+    loop.run(case, out, resume=True, quiet=True)
     assert json.loads((out / "summary.json").read_text())["status"] == "completed"
     assert_same_run(out, checked)
     assert error_check(out) == error_check(checked)
@@ -176,7 +176,7 @@ def test_an_interrupted_check_is_made_again(checked, monkeypatch, tmp_path):
 
 def test_the_check_of_the_step_changes_no_other_file(checked, tmp_path):
     case = load(CASES / "crowded.toml", [*CHECKED, "time.error_check=false"])
-    out = simulation.run(case, tmp_path / "out", quiet=True)
+    out = loop.run(case, tmp_path / "out", quiet=True)
     names = [path.relative_to(out) for path in out.rglob("*") if path.is_file()]
     assert sorted(names) == sorted(path.relative_to(checked) for path in checked.rglob("*") if path.is_file())
     for name in names:

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
-import dilatedem
+import dilatedem.run
 from dilatedem.case.load import load
 from dilatedem.cli import _clock, app
 from dilatedem.errors import CaseError, Interrupted, SimulationStopped
@@ -35,8 +35,9 @@ def simulation(monkeypatch, tmp_path):
 
     fake.run = run
     fake.check = lambda case: [("floes", 200), ("time step", 5.12345678e-5)]
-    monkeypatch.setitem(sys.modules, "dilatedem.run.simulation", fake)
-    monkeypatch.setattr(dilatedem, "simulation", fake, raising=False)
+    for name in ("loop", "foretell"):
+        monkeypatch.setitem(sys.modules, f"dilatedem.run.{name}", fake)
+        monkeypatch.setattr(dilatedem.run, name, fake, raising=False)
     return fake
 
 

@@ -14,7 +14,7 @@ import numpy as np
 
 from dilatedem.case.load import load
 from dilatedem.output import folder
-from dilatedem.run.simulation import run
+from dilatedem.run.loop import run
 
 HERE = Path(__file__).parent
 RUN = Path("runs/jam")

@@ -103,7 +103,7 @@ class Runner:
             return
         # or the first two processes would compile the same kernels side by side
         for model in sorted({run.model for run in waiting}):
-            compile_once = f"from dilatedem.run.simulation import compile_kernels; compile_kernels(model={model!r})"
+            compile_once = f"from dilatedem.run.loop import compile_kernels; compile_kernels(model={model!r})"
             subprocess.run([sys.executable, "-c", compile_once], capture_output=True, check=False)
         with ThreadPoolExecutor(self.jobs) as pool:
             futures = [pool.submit(self._run, run, f"[{i}/{len(waiting)}]") for i, run in enumerate(waiting, start=1)]

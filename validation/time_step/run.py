@@ -17,7 +17,8 @@ import numpy as np
 from dilatedem.case.load import load
 from dilatedem.output import folder
 from dilatedem.run.error_check import TAIL, replay
-from dilatedem.run.simulation import restored, run
+from dilatedem.run.loop import run
+from dilatedem.run.restore import restored
 
 HERE = Path(__file__).parent
 RUNS = Path("runs/time_step")

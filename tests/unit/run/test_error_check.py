@@ -14,7 +14,7 @@ from dilatedem.case.schema import Case
 from dilatedem.output import checkpoint
 from dilatedem.output.windows import end_open_window
 from dilatedem.post import info, post
-from dilatedem.run import simulation
+from dilatedem.run import loop
 from dilatedem.run.error_check import LEAD, TAIL, WINDOW, Watch, check
 from dilatedem.run.simulation import Simulation
 from dilatedem.state.bodies import bodies_at_rest
@@ -52,7 +52,7 @@ def ball(step: float) -> Case:
 
 
 def summary_of(case: Case, out: Path) -> dict:
-    return json.loads((simulation.run(case, out, overwrite=True, quiet=True) / "summary.json").read_text())
+    return json.loads((loop.run(case, out, overwrite=True, quiet=True) / "summary.json").read_text())
 
 
 def test_a_coarse_step_has_a_larger_error_than_a_fine_one(tmp_path):
@@ -80,7 +80,7 @@ def test_the_window_holds_the_peak_however_seldom_forces_are_written(window, tmp
 
 @pytest.mark.parametrize("name", ["crowded", "mixed"])
 def test_a_run_of_many_bodies_is_reproduced_and_its_impulse_is_that_of_the_table(name, tmp_path):
-    out = simulation.run(load(CASES / f"{name}.toml", ["time.error_check=true", "time.duration=1.5"]), tmp_path / name, quiet=True)
+    out = loop.run(load(CASES / f"{name}.toml", ["time.error_check=true", "time.duration=1.5"]), tmp_path / name, quiet=True)
     summary = json.loads((out / "summary.json").read_text())
     found, loads = summary["error_check"], summary["loads"]
     assert found["reproduced"] is True
@@ -177,7 +177,7 @@ def test_a_copy_of_the_pairs_holds_all_of_them():
 
 def watched(peaks: dict[float, float], *, end: float, dt: float = 1e-3) -> Watch:
     """A watch that looked every 0.01 s and found these loads (time [s] -> N) on the second of two structures."""
-    watch, loads = Watch(dt), empty_loads(np.zeros((2, 6)), np.zeros((2, 3)))
+    watch, loads = Watch(dt), empty_loads(2)
     windows = no_windows(2)
     state = SimpleNamespace(clock=clock_at_start(), loads=loads, bodies=bodies_at_rest(1), pairs=empty_pairs(3))
     for look in range(round(end / 0.01) + 1):

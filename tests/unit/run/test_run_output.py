@@ -12,8 +12,8 @@ import pytest
 
 from dilatedem.case.load import load
 from dilatedem.output.schedule import Schedule
-from dilatedem.run import output as run_output
-from dilatedem.run import simulation
+from dilatedem.run import loop, observers
+from dilatedem.run.pace import total_steps
 from dilatedem.run.simulation import Simulation
 from dilatedem.state.clock import Status
 
@@ -35,7 +35,7 @@ def table(path: Path) -> dict[str, np.ndarray]:
 @pytest.fixture(scope="module")
 def short_run(tmp_path_factory) -> Path:
     case = load(CROWDED, [f"time.duration={CLOSE_LOOK}"])
-    return simulation.run(case, tmp_path_factory.mktemp("short") / "run", quiet=True)
+    return loop.run(case, tmp_path_factory.mktemp("short") / "run", quiet=True)
 
 
 @pytest.fixture(scope="module")
@@ -44,7 +44,7 @@ def steps():
     run = Simulation.of_case(load(CROWDED, [f"time.duration={CLOSE_LOOK}"]))
     assert run.evaluate() == Status.DONE
     load_on_pile, contacts, pressed = [], [], []
-    for _ in range(simulation.total_steps(run.case, run.dt)):
+    for _ in range(total_steps(run.case, run.dt)):
         assert run.advance(1) == Status.DONE
         loads, pairs = run.state.loads, run.state.pairs
         count = int(pairs.count[0])
@@ -231,7 +231,7 @@ class PullTheCable(Exception):
 @pytest.mark.parametrize(("refresh_s", "there"), [(0.0, True), (1e9, False)])
 def test_rows_and_snapshots_reach_their_files_while_a_run_goes_on(refresh_s, there, monkeypatch, tmp_path):
     """All of them a second after they came at the latest, whenever the next checkpoint may be."""
-    monkeypatch.setattr(run_output, "REFRESH_S", refresh_s)
+    monkeypatch.setattr(observers, "REFRESH_S", refresh_s)
     out, advance, given_up = tmp_path / "run", Simulation.advance, time.monotonic() + 30.0
 
     def stop_at_a_third(self, steps, **more):
@@ -246,7 +246,7 @@ def test_rows_and_snapshots_reach_their_files_while_a_run_goes_on(refresh_s, the
 
     monkeypatch.setattr(Simulation, "advance", stop_at_a_third)
     with pytest.raises(PullTheCable):
-        simulation.run(load(CROWDED, ["output.snapshot_interval=0.1"]), out, quiet=True)
+        loop.run(load(CROWDED, ["output.snapshot_interval=0.1"]), out, quiet=True)
     # what a fault of the program itself leaves: everything up to then
     assert table(out / "forces.csv")["time_s"][-1] > 0.29
     entries = [entry.attrib["file"] for entry in ElementTree.parse(out / "ice.pvd").iter("DataSet")]
@@ -263,8 +263,8 @@ def table_or_none(path: Path) -> dict[str, np.ndarray] | None:
 
 
 def test_how_often_files_are_brought_up_to_date_changes_no_byte(short_run, monkeypatch, tmp_path):
-    monkeypatch.setattr(run_output, "REFRESH_S", 0.0)
-    again = simulation.run(load(CROWDED, [f"time.duration={CLOSE_LOOK}"]), tmp_path / "again", quiet=True)
+    monkeypatch.setattr(observers, "REFRESH_S", 0.0)
+    again = loop.run(load(CROWDED, [f"time.duration={CLOSE_LOOK}"]), tmp_path / "again", quiet=True)
     for name in ("forces.csv", "energy.csv", "bodies.csv", "ice.pvd", "run.h5"):
         assert (again / name).read_bytes() == (short_run / name).read_bytes(), name
     told, expected = (json.loads((out / "summary.json").read_text()) for out in (again, short_run))

@@ -10,9 +10,10 @@ import pytest
 from dilatedem.case.load import load
 from dilatedem.case.schema import Case
 from dilatedem.errors import CaseError, Interrupted, SimulationStopped
-from dilatedem.run import simulation
+from dilatedem.run import loop
+from dilatedem.run.foretell import check
 from dilatedem.run.pace import free_span, time_step, total_steps
-from dilatedem.run.simulation import Simulation, check
+from dilatedem.run.simulation import Simulation
 from dilatedem.state.clock import Status
 from dilatedem.state.pairs import empty_pairs
 
@@ -81,7 +82,7 @@ def test_evaluating_the_start_moves_nothing():
 def test_the_list_of_pairs_grows_where_it_is_too_short():
     roomy, tight = (Simulation.of_case(load(CROWDED)) for _ in range(2))
     tight.state.pairs = empty_pairs(1)
-    tight._make_room()
+    tight.make_room()
     for run in (roomy, tight):
         assert run.evaluate() == Status.DONE
         assert run.advance(6000) == Status.DONE
@@ -109,12 +110,12 @@ def test_a_body_inside_a_structure_stops_the_run_and_both_are_named(tmp_path):
         body=[{"vertices": spike, "dilated_radius": 0.1, "position": [1.0, 0.0, 0.0]}],
     )
     with pytest.raises(SimulationStopped, match=r'body 0 at \(1\.00, 0\.00\) and structure "leg" overlap by \S+ m'):
-        simulation.run(case, tmp_path / "deep", quiet=True)
+        loop.run(case, tmp_path / "deep", quiet=True)
 
 
 def test_more_threads_than_the_machine_has_are_refused(tmp_path):
     with pytest.raises(CaseError, match=r"--threads = 9999: this machine offers \d+"):
-        simulation.run(load(CROWDED), tmp_path / "out", threads=9999, quiet=True)
+        loop.run(load(CROWDED), tmp_path / "out", threads=9999, quiet=True)
     assert not (tmp_path / "out").exists()
 
 
@@ -141,19 +142,19 @@ def test_an_interrupt_while_compiling_leaves_no_folder(tmp_path, monkeypatch):
     def interrupted(*asked):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(simulation, "compile_kernels", interrupted)
+    monkeypatch.setattr(loop, "compile_kernels", interrupted)
     with pytest.raises(Interrupted, match="interrupted while compiling; no file was touched"):
-        simulation.run(load(CROWDED), tmp_path / "out", quiet=True)
+        loop.run(load(CROWDED), tmp_path / "out", quiet=True)
     assert not (tmp_path / "out").exists()
 
 
 def test_wall_time_adds_up_over_the_parts_of_a_run_and_contains_the_compiling(tmp_path):
     case, out = load(CROWDED, ["time.duration=0.1"]), tmp_path / "out"
-    simulation.run(case, out, quiet=True)
+    loop.run(case, out, quiet=True)
     first = json.loads((out / "summary.json").read_text())
     assert 0.0 < first["compile_s"] < first["wall_s"]
     assert first["steps_per_s"] == pytest.approx(first["steps"] / (first["wall_s"] - first["compile_s"]))
-    simulation.run(case, out, resume=True, quiet=True)
+    loop.run(case, out, resume=True, quiet=True)
     second = json.loads((out / "summary.json").read_text())
     assert second["wall_s"] > first["wall_s"] and second["compile_s"] > first["compile_s"]
     assert second["steps"] == first["steps"]

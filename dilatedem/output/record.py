@@ -1,0 +1,61 @@
+"""run.h5 as an observer: where on each structure the load acted, how floes touched, the floes of the start."""
+
+import numpy as np
+
+from dilatedem.output import folder
+from dilatedem.output.archive import ContactStatistics, FloeTable, LoadMap, RunArchive
+from dilatedem.output.observer import Observer
+from dilatedem.state.charts import Along
+from dilatedem.state.loads import HEIGHT_BINS, PLACE_BINS
+
+
+class Record(Observer):
+    """Written whenever the state is saved: it is small."""
+
+    name = "record"
+    _archive: RunArchive | None = None  # until it is written first
+
+    def save(self) -> None:
+        self.background.put(self._write, self._load_maps(), self._contact_statistics())
+
+    def _write(self, maps: list[LoadMap], statistics: dict[str, ContactStatistics]) -> None:
+        """In the background, as laying it out takes a while, too."""
+        if self._archive:
+            self._archive.update(maps, statistics)
+        else:
+            self._archive = RunArchive(maps, statistics, self._floe_table())
+        self._archive.write(self.out / folder.RUN_ARCHIVE)
+
+    def _load_maps(self) -> list[LoadMap]:
+        """At this moment, in copies."""
+        simulation, impulse = self.simulation, self.simulation.state.loads.impulse_map
+        maps = []
+        for s, structure in enumerate(simulation.scene.structures):
+            chart, (low, high) = structure.chart, simulation.model.charts.heights[s]
+            around = chart.along == Along.ANGLE
+            maps.append(LoadMap(
+                structure=structure.name, kind=structure.about.kind, impulse=impulse[s].copy(), edges=chart.edges(PLACE_BINS),
+                height_edges=np.linspace(low, high, HEIGHT_BINS + 1), duration_s=simulation.time_s,
+                center=structure.about.center if around else structure.about.point, radius=chart.radius, axis=chart.axis,
+            ))  # fmt: skip
+        return maps
+
+    def _contact_statistics(self) -> dict[str, ContactStatistics]:
+        """At this moment, in copies."""
+        loads = self.simulation.state.loads
+        columns = (loads.mode_steps, loads.mode_impulse, loads.mode_force, loads.mode_overlap)
+        return {
+            partners: ContactStatistics(*(values[p].copy() for values in columns))
+            for p, partners in enumerate(("ice_ice", "ice_structure"))
+        }
+
+    def _floe_table(self) -> FloeTable:
+        scene = self.simulation.scene
+        return FloeTable(
+            body=np.arange(scene.count), x0=scene.position[:, 0], y0=scene.position[:, 1], plan_area=scene.plan_area,
+            mass=scene.mass(), volume=scene.volume(), vertices=scene.core_vertices(), outlines=scene.outlines,
+        )  # fmt: skip
+
+    def close(self) -> None:
+        if self._archive:
+            self._archive.close()

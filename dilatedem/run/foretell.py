@@ -1,0 +1,30 @@
+"""What follows from a case before it is run."""
+
+import numpy as np
+
+from dilatedem.case.schema import Case
+from dilatedem.run.observers import expected_size
+from dilatedem.run.pace import total_steps
+from dilatedem.run.simulation import Simulation
+
+
+def check(case: Case) -> dict:
+    """Floes, mass, time step, steps, expected size of the output. Raises CaseError for what only building a case can tell."""
+    simulation = Simulation.of_case(case)
+    scene, floating = simulation.scene, simulation.model.floating
+    areas = scene.plan_area[scene.explicit :]
+    facts = {
+        "floes": len(areas),
+        "explicit bodies": scene.explicit,
+        "floes left out at structures": scene.field.left_out,
+        "structures": len(scene.structures),
+        "mass, t": simulation.model.solids.mass[:floating].sum() / 1e3,
+        "critical step, s": simulation.critical,
+        "step, s": simulation.dt,
+        "step / critical step": simulation.dt / simulation.critical,
+        "steps": total_steps(case, simulation.dt),
+        "output, MB, about": expected_size(case, floating, len(scene.structures)) / 1e6,
+    }
+    if len(areas):
+        facts |= {"concentration": scene.field.concentration, "floe size, m": float(np.sqrt(areas.mean()))}
+    return facts

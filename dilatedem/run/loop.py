@@ -1,0 +1,122 @@
+"""From one due step to the next until the end of a run, an interruption or a fault."""
+
+import math
+import time
+from pathlib import Path
+
+from dilatedem.case.schema import Case
+from dilatedem.errors import CaseError, Interrupted, SimulationStopped
+from dilatedem.jit import start_threads
+from dilatedem.output import folder
+from dilatedem.output.progress import Progress
+from dilatedem.run.interruption import Interruption
+from dilatedem.run.observers import RunFolder
+from dilatedem.run.pace import total_steps
+from dilatedem.run.restore import load_checkpoint
+from dilatedem.run.simulation import Simulation
+from dilatedem.state.clock import Status
+
+#: steps between two looks at the keyboard and the progress bar, where no output is due earlier
+LONGEST_CHUNK = 2000
+
+
+def run(case: Case, out: Path, *, threads: int = 1, resume: bool = False, overwrite: bool = False, quiet: bool = False) -> Path:
+    """Simulate a case into the run folder `out`; returns it.
+
+    Raises CaseError (nothing written), SimulationStopped or Interrupted (state saved).
+    """
+    out = Path(out)
+    if folder.holds_run(out) and not (resume or overwrite):
+        raise CaseError(f"{out}: holds a run already; continue it with --resume, replace it with --overwrite, or choose --out")
+    if resume and not folder.holds_run(out):
+        raise CaseError(f"{out}: holds no run to resume; leave --resume away to start one")
+    try:
+        layer = start_threads(threads)
+    except ValueError as fault:
+        raise CaseError(f"--{fault}") from fault
+    simulation = Simulation.of_case(case, threads=threads)
+    saved = load_checkpoint(out, case, simulation) if resume else None
+    steps = total_steps(case, simulation.dt)
+    with Progress(case.time.duration, quiet) as progress:
+        progress.message(_headline(simulation, steps, layer))
+        compile_s = _compile(simulation, progress)
+        with Interruption() as interruption, RunFolder(simulation, out, saved, compile_s=compile_s) as files:
+            if not saved:
+                _stop_on_fault(simulation, files, simulation.evaluate())
+                files.observe()
+            _loop(simulation, files, steps, progress, interruption)
+    return out
+
+
+def compile_kernels(threads: int = 1, model: str = "liu2015") -> None:
+    """Compile what a run with a contact model needs, or load it from the cache."""
+    case = Case.model_validate({
+        "field": {"source": "bodies"}, "body": [{"vertices": [[0.0, 0.0, 0.0]], "dilated_radius": 0.1}],
+        "contact": {"model": model},
+    })  # fmt: skip
+    Simulation.of_case(case, threads=threads).advance(1)
+
+
+def _compile(simulation: Simulation, progress: Progress) -> float:
+    """Have the kernels ready before any file is touched: Ctrl-C ends this at once, with nothing to save. Returns the time, s."""
+    started = time.perf_counter()
+    if not simulation.is_compiled():
+        progress.message("compiling, once (about twenty seconds)")
+    try:
+        compile_kernels(simulation.threads, simulation.case.contact.model)
+    except KeyboardInterrupt:
+        raise Interrupted("interrupted while compiling; no file was touched") from None
+    return time.perf_counter() - started
+
+
+def _loop(simulation: Simulation, files: RunFolder, steps: int, progress: Progress, interruption: Interruption) -> None:
+    clock, longest = simulation.state.clock, -(-LONGEST_CHUNK // simulation.span) * simulation.span
+    now = int(clock.step[0])
+    progress.update(simulation.time_s, now, lambda: simulation.contacts)
+    while now < steps:
+        status = simulation.advance(min(files.next_due, steps, now + longest) - now)
+        _stop_on_fault(simulation, files, status)
+        now = int(clock.step[0])
+        files.observe(last=now == steps)
+        progress.update(simulation.time_s, now, lambda: simulation.contacts)
+        if interruption.asked and now < steps:
+            files.interrupt()
+            raise Interrupted(f"interrupted at t = {simulation.time_s:.4f} s; the state is saved, --resume goes on from it")
+    found = files.complete(lambda: interruption.asked)
+    if found:
+        progress.message(found)
+
+
+def _stop_on_fault(simulation: Simulation, files: RunFolder, status: Status) -> None:
+    if status != Status.DONE:
+        sentence = fault(simulation, status)
+        files.stop(sentence)
+        raise SimulationStopped(sentence)
+
+
+def _headline(simulation: Simulation, steps: int, layer: str) -> str:
+    ratio = simulation.dt / simulation.critical
+    return (
+        f"{simulation.scene.count} bodies, {steps} steps of {simulation.dt:.3g} s = {ratio:.3g} of the critical step "
+        f"({simulation.critical:.3g} s); {f'{simulation.threads} threads ({layer})' if layer else '1 thread'}"
+    )
+
+
+def fault(simulation: Simulation, status: Status) -> str:
+    """One sentence: which bodies, when, why, what to do."""
+    clock = simulation.state.clock
+    names = [_body_name(simulation, int(i)) for i in clock.culprit if i >= 0]
+    measure = float(clock.measure[0])
+    if status == Status.TOO_DEEP:
+        cause = f"{names[0]} and {names[1]} overlap by {measure:.3g} m, more than their rounded edges can mean"
+    else:
+        moved = f"{measure:.3g} m" if math.isfinite(measure) else "without bound"
+        cause = f"{names[0]} moved {moved} in one step"
+    return f"stopped at t = {simulation.time_s:.6g} s: {cause}; the state is saved; try a smaller time.step or check the case"
+
+
+def _body_name(simulation: Simulation, body: int) -> str:
+    if body >= simulation.model.floating:
+        return f'structure "{simulation.scene.structures[simulation.model.structure_of[body]].name}"'
+    x, y = simulation.state.bodies.position[body, :2]
+    return f"body {simulation.state.ids.body[body]} at ({x:.2f}, {y:.2f})"

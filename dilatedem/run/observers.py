@@ -1,0 +1,210 @@
+"""The run folder of one simulation, kept up to date from step to step by a list of observers."""
+
+import math
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+from dilatedem import __version__
+from dilatedem.case import write
+from dilatedem.case.schema import Case
+from dilatedem.errors import Interrupted
+from dilatedem.output import checkpoint, folder
+from dilatedem.output.atomic import write_text
+from dilatedem.output.background import Background
+from dilatedem.output.energies import Energies
+from dilatedem.output.forces import Forces
+from dilatedem.output.motion import TrackedBodies
+from dilatedem.output.observer import Observer
+from dilatedem.output.record import Record
+from dilatedem.output.snapshots import Snapshots
+from dilatedem.output.summary import versions, write_summary
+from dilatedem.output.vtu import write_structures
+from dilatedem.run import error_check
+from dilatedem.run.error_check import LoadWatch
+
+#: s of wall time after which, at the latest, new rows and snapshots are in the tables and in ice.pvd (or at the next thing due)
+REFRESH_S = 1.0
+
+
+class Checkpoints(Observer):
+    """When the state is saved on the way."""
+
+    name = "checkpoints"
+
+    @classmethod
+    def interval(cls, case: Case) -> float:
+        return case.output.checkpoint_interval
+
+
+#: all observers, in the order in which they look; the first one's interval is that of the windows of loads
+OBSERVERS: tuple[type[Observer], ...] = (Forces, LoadWatch, Energies, TrackedBodies, Snapshots, Record, Checkpoints)
+
+
+def intervals(case: Case) -> list[float]:
+    """Simulated times [s] between two looks of every observer that has one; that of the loads' windows comes first."""
+    return [interval for interval in (kind.interval(case) for kind in OBSERVERS) if interval > 0.0]
+
+
+def expected_size(case: Case, floes: int, structures: int) -> float:
+    """What a run will write, about [bytes]."""
+    return sum(kind.size(case, floes, structures) for kind in OBSERVERS)
+
+
+class RunFolder:
+    """All observers of a simulation, and what is written when its state is saved; a thread in the background writes the files."""
+
+    def __init__(self, simulation, out: Path, saved: dict | None = None, *, compile_s: float = 0.0):
+        """Start a run folder, or go on with it from the checkpoint whose meta is `saved`.
+
+        Of an earlier run nothing is left where it starts. compile_s: time [s] that was spent on the kernels before.
+        """
+        self._simulation, self._out = simulation, Path(out)
+        self._began, self._checked = time.perf_counter(), {}
+        kept = saved["observers"] if saved else {}
+        self._wall_s, self._compile_s = (saved["wall_s"], saved["compile_s"]) if saved else (0.0, 0.0)
+        self._wall_s, self._compile_s = self._wall_s + compile_s, self._compile_s + compile_s
+        if not saved:
+            self._start_folder()
+        self._background = Background()
+        self._observers = [kind(simulation, self._out, self._background) for kind in OBSERVERS]
+        step = int(simulation.state.clock.step[0])
+        for observer in self._observers:
+            observer.open(kept.get(observer.name, {}) if saved else None, step if saved else -1)
+        self._checkpoints = next(observer for observer in self._observers if isinstance(observer, Checkpoints))
+        self._refreshed = time.monotonic()
+        self._look_ahead(step if saved else -1)
+        if not saved:
+            self._write_summary("running", "")
+
+    def _start_folder(self) -> None:
+        folder.clear(self._out)
+        self._out.mkdir(parents=True, exist_ok=True)
+        case, scene = self._simulation.case, self._simulation.scene
+        header = f"# dilatedem {__version__}, seed {case.field.seed}\n\n"
+        write_text(self._out / folder.CASE, header + write.dump(case))
+        extent = math.hypot(*case.domain.size)
+        write_structures(self._out / folder.STRUCTURES, [structure.about.drawing(extent) for structure in scene.structures])
+
+    def __enter__(self) -> "RunFolder":
+        return self
+
+    def __exit__(self, *exception) -> None:
+        self._refresh()
+        self._background.close()
+        for observer in self._observers:
+            observer.close()
+
+    @property
+    def next_due(self) -> int:
+        """The next step that some observer must see."""
+        return self._next_due
+
+    def _look_ahead(self, step: int) -> None:
+        self._next_due = min(observer.next_due(step) for observer in self._observers)
+
+    def observe(self, *, last: bool = False) -> None:
+        """Have the present step looked at (`last`: the run's last, which closes every window)."""
+        step = int(self._simulation.state.clock.step[0])
+        for observer in self._observers:
+            observer.look(step, last)
+        if not last and self._checkpoints.schedule.is_due(step):
+            self._save("running")
+        full = any(observer.is_full(step) for observer in self._observers)
+        if full or time.monotonic() - self._refreshed >= REFRESH_S:
+            self._refresh()
+        self._look_ahead(step)
+
+    def repacked(self) -> None:
+        """Other bodies are there than before."""
+        for observer in self._observers:
+            observer.repacked()
+
+    def complete(self, asked: Callable[[], bool] = lambda: False) -> str:
+        """The run is at its end: check its time step, if the case wants it. Returns what that found, in a sentence.
+
+        asked  whether the user wants to end; then Interrupted is raised
+        """
+        simulation = self._simulation
+        if not simulation.state.watch:
+            self._save("completed")
+            self._background.wait()
+            return ""
+        self._save("running")  # a kill during the check costs the check alone
+        try:
+            self._checked = error_check.check(simulation, [structure.name for structure in simulation.scene.structures], asked)
+        except Interrupted:
+            self.interrupt()
+            raise
+        self._checked["wall_s"] = time.perf_counter() - self._began
+        self._note_wall_time()
+        self._write_summary("completed", "")
+        self._background.wait()
+        return self._checked["message"]
+
+    def interrupt(self) -> None:
+        self._save("interrupted", "stopped by the user; --resume goes on")
+        self._background.wait()
+
+    def stop(self, message: str) -> None:
+        """The simulation cannot go on: keep the last checkpoint, and the state that failed beside it."""
+        self._refresh()
+        self._note_wall_time()
+        self._put_checkpoint(folder.STOPPED)
+        for observer in self._observers:
+            observer.save()
+        self._write_summary("stopped", message)
+        self._background.wait()
+
+    def _save(self, status: str, message: str = "") -> None:
+        """Everything up to now, in files that a later run can go on from."""
+        self._refresh()
+        for observer in self._observers:
+            observer.save()
+        self._note_wall_time()
+        self._put_checkpoint(folder.CHECKPOINT)
+        self._write_summary(status, message)
+
+    def _refresh(self) -> None:
+        """Bring all files up to this moment."""
+        for observer in self._observers:
+            observer.refresh()
+        self._refreshed = time.monotonic()
+
+    def _note_wall_time(self) -> None:
+        now = time.perf_counter()
+        self._wall_s += now - self._began
+        self._began = now
+
+    def _put_checkpoint(self, file: str) -> None:
+        """Have the state of this moment saved."""
+        watch = self._simulation.state.watch
+        meta = {"version": __version__, "dt": self._simulation.dt, "wall_s": self._wall_s, "compile_s": self._compile_s}
+        meta |= {"watch": watch.figures()} if watch else {}
+        kept = {observer.name: observer.kept() for observer in self._observers}
+        self._background.put(self._write_checkpoint, file, self._simulation.state.copies(), meta, kept)
+
+    def _write_checkpoint(self, file: str, groups: dict, meta: dict, kept: dict) -> None:
+        """In the background. What it counts on is on the disk before it."""
+        kept = {observer.name: kept[observer.name] | observer.settle() for observer in self._observers}
+        checkpoint.save(self._out / file, groups, meta | {"observers": kept})
+
+    def _write_summary(self, status: str, message: str) -> None:
+        simulation, told = self._simulation, {}
+        case, step = simulation.case, int(simulation.state.clock.step[0])
+        for observer in self._observers:
+            told |= observer.summary()
+        stepping_s = self._wall_s - self._compile_s - self._checked.get("wall_s", 0.0)
+        self._background.put(write_summary, self._out / folder.SUMMARY, {
+            "status": status, "message": message, "title": case.title, "version": __version__, "versions": versions,
+            "seed": case.field.seed, "floes": simulation.model.floating, "steps": step, "dt_s": simulation.dt,
+            "dt_critical_s": simulation.critical, "dt_over_critical": simulation.dt / simulation.critical,
+            "dt_over_critical_of_open_contacts": told["dt_over_critical_of_open_contacts"], "simulated_s": simulation.time_s,
+            "duration_s": case.time.duration, "wall_s": self._wall_s, "compile_s": self._compile_s,
+            "steps_per_s": step / stepping_s if stepping_s > 0.0 else None, "threads": simulation.threads,
+        } | told | {
+            "contact": {
+                "model": case.contact.model, "open": simulation.contacts,
+                "largest_overlap_m": float(simulation.state.loads.mode_overlap.max()),
+            },
+        } | ({"error_check": self._checked} if self._checked else {}))  # fmt: skip

@@ -1,0 +1,43 @@
+"""A simulation in the state that its run folder holds."""
+
+from pathlib import Path
+
+from dilatedem import __version__
+from dilatedem.case import write
+from dilatedem.case.schema import Case
+from dilatedem.errors import CaseError
+from dilatedem.output import checkpoint, folder
+from dilatedem.run.simulation import Simulation
+from dilatedem.state.pairs import grown
+
+
+def restored(case: Case, out: Path) -> Simulation:
+    """A case in the state that its run folder holds. Raises CaseError as `load_checkpoint`."""
+    simulation = Simulation.of_case(case)
+    load_checkpoint(Path(out), case, simulation)
+    return simulation
+
+
+def load_checkpoint(out: Path, case: Case, simulation: Simulation) -> dict:
+    """Restore the state saved in the run folder `out` into `simulation`; returns the checkpoint's meta.
+
+    Raises CaseError where there is none, or where it belongs to another case, version or step.
+    """
+    kept, file = out / folder.CASE, out / folder.CHECKPOINT
+    text = kept.read_text(encoding="utf-8") if kept.exists() else ""
+    if text.partition("\n\n")[2] != write.dump(case):
+        raise CaseError(f"{kept}: is not the case given; resume with the case that the run was started with")
+    groups, meta = checkpoint.load(file)
+    if meta["version"] != __version__:
+        raise CaseError(f"{file}: was written by dilatedem {meta['version']}; resume with that version")
+    if meta["dt"] != simulation.dt:
+        steps = f"{meta['dt']:g} s, this program takes {simulation.dt:g} s"
+        raise CaseError(f"{file}: has steps of {steps}; run anew with --overwrite")
+    state, room = simulation.state, len(simulation.state.pairs.a)
+    for name, current in state.groups().items():
+        setattr(state, name, checkpoint.restore(type(current), groups[name], where=str(file)))
+    state.pairs = grown(state.pairs, max(room, len(state.pairs.a)))
+    if state.watch:
+        state.watch.restore(groups, meta["watch"], where=str(file))
+    simulation.make_room()
+    return meta
