@@ -32,4 +32,4 @@ def as_dataset(load_map: LoadMap) -> xarray.Dataset:
         coordinates[bounds] = (bounds, np.asarray(edges), attributes | {"long_name": f"bounds of the bins of {name}"})
     impulse = ((place, "height"), load_map.impulse, {"units": "N s", "long_name": "normal impulse since t = 0"})
     said = {"structure": load_map.structure, "kind": load_map.kind, "duration_s": load_map.duration}
-    return xarray.Dataset({"impulse_Ns": impulse}, coordinates, said | load_map.attributes)
+    return xarray.Dataset({"impulse_Ns": impulse}, coordinates, load_map.attributes | said)

@@ -308,7 +308,10 @@ class RunOutput:
         if self._archive:
             self._archive.update(maps, statistics)
         else:
-            self._archive = RunArchive(maps, statistics, self._floe_table())
+            case = self._simulation.case
+            current = case.water.velocity if case.water.enabled else (0.0, 0.0)
+            about = {"title": case.title, "seed": case.field.seed, "current_velocity_m_s": current}
+            self._archive = RunArchive(maps, statistics, self._floe_table(), about=about)
         self._archive.write(self._out / folder.RUN_ARCHIVE)
 
     def _write_summary(self, status: str, message: str) -> None:
