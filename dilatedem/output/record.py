@@ -23,7 +23,10 @@ class Record(Observer):
         if self._archive:
             self._archive.update(maps, statistics)
         else:
-            self._archive = RunArchive(maps, statistics, self._floe_table())
+            case = self.simulation.case
+            current = case.water.velocity if case.water.enabled else (0.0, 0.0)
+            about = {"title": case.title, "seed": case.field.seed, "current_velocity_m_s": current}
+            self._archive = RunArchive(maps, statistics, self._floe_table(), about=about)
         self._archive.write(self.out / folder.RUN_ARCHIVE)
 
     def _load_maps(self) -> list[LoadMap]:

@@ -17,7 +17,7 @@ from dilatedem.post.canvas import (
     styled,
 )
 from dilatedem.post.labels import number
-from dilatedem.post.read import Table
+from dilatedem.results.tables import Table
 
 # label, columns added up, colour, line style
 TERMS = (

@@ -21,7 +21,7 @@ from dilatedem.post.plan import (
     dress,
 )
 from dilatedem.post.read import RunFolder
-from dilatedem.post.snapshots import Snapshot
+from dilatedem.results.snapshots import Snapshot
 
 SPEED_MAP = "viridis"
 PAGE_WIDTH = 10.0  # inch, of a row of panels

@@ -12,7 +12,8 @@ from matplotlib.ticker import MaxNLocator
 from dilatedem.post.canvas import BLACK, BLUE, SKY, VERMILION, Drawing, file_name, new_figure, styled
 from dilatedem.post.labels import number
 from dilatedem.post.loads import angular_statistics, line_load, mean_force_by_place, window_lengths
-from dilatedem.post.read import LoadMap, Table
+from dilatedem.results.archive import LoadMap
+from dilatedem.results.tables import Table
 
 # Windows are joined to about so many columns: more than a page resolves, few enough for an SVG.
 COLUMNS_DRAWN = 1600

@@ -17,9 +17,12 @@ from dilatedem.post.figures_field import field_figure, plan_figure, speed_figure
 from dilatedem.post.figures_loads import force_figure, load_around_figure, load_map_figure, peak_figure
 from dilatedem.post.figures_sweep import sweep_figure
 from dilatedem.post.loads import angular_statistics, load_statistics
-from dilatedem.post.read import RunFolder, is_run, is_sweep, open_run, read_summary, row_count
-from dilatedem.post.snapshots import Snapshot, snapshots_at
+from dilatedem.post.read import RunFolder, open_run
+from dilatedem.post.snapshots import snapshots_at
 from dilatedem.post.sweeps import Sweep, compare_runs, read_sweep, write_table
+from dilatedem.results.files import is_run, is_sweep, read_summary
+from dilatedem.results.snapshots import Snapshot
+from dilatedem.results.tables import row_count
 
 COMPARISON_TABLE = "comparison.csv"
 MOMENTS = (0.0, 0.5, 1.0)  # of the run's time that the plan views show, as in Liu 2015, Fig. 10

@@ -7,7 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from dilatedem.post.read import LoadMap, Table, row_count
+from dilatedem.results.archive import LoadMap
+from dilatedem.results.tables import Table, row_count
 
 QUANTILES = (50.0, 90.0, 95.0, 99.0, 99.9)  # per cent of the windows
 # Share of the highest peak that counts as a peak; a lower one counts the shivers between two hits too.

@@ -7,8 +7,9 @@ from pathlib import Path
 
 from dilatedem.post.labels import axis_label, number
 from dilatedem.post.loads import load_statistics
-from dilatedem.post.read import RunFolder, is_sweep, open_run
+from dilatedem.post.read import RunFolder, open_run
 from dilatedem.post.sweeps import read_sweep, value_words
+from dilatedem.results.files import is_sweep
 
 
 def describe(folder: Path) -> str:

@@ -6,16 +6,16 @@ import csv
 import math
 import os
 import re
-import tomllib
 from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from dilatedem.errors import CaseError
 from dilatedem.post.labels import flatten, show
 from dilatedem.post.loads import load_statistics
-from dilatedem.post.read import RunFolder, is_run, open_run
+from dilatedem.post.read import RunFolder, open_run
+from dilatedem.results.files import is_run
+from dilatedem.results.sweep import locate, parse_value, read_rows
 
 LOAD_COLUMN = re.compile(r"(?P<structure>.+)_(?P<quantity>f[xyzh]_(?:max|min|mean))_N")
 SEED_KEY = "field.seed"
@@ -59,14 +59,7 @@ def read_sweep(folder: Path) -> Sweep:
 
     Raises CaseError when its sweep.csv is another kind of table.
     """
-    path = folder / "sweep.csv"
-    text = path.read_text(encoding="utf-8", errors="replace")
-    lines = list(csv.reader(text.splitlines()))
-    if not lines or "seed" not in lines[0] or "run" not in lines[0]:
-        raise CaseError(f"{path}: not the table of a sweep (it has no columns seed and run)")
-    header, *rows = lines
-    # A row that was cut short is left out.
-    records = [dict(zip(header, row, strict=True)) for row in rows if len(row) == len(header)]
+    header, records = read_rows(folder)
     keys = [name for name in header[: header.index("seed")] if name != SEED_KEY]
     runs = [sweep_run(record, keys, folder) for record in records]
     return Sweep(sweep_title(folder, runs), folder, keys, runs)
@@ -91,27 +84,11 @@ def sweep_run(record: dict[str, str], keys: list[str], folder: Path) -> SweepRun
     )
 
 
-def locate(name: str, sweep_folder: Path) -> Path:
-    """A run's folder as sweep.csv names it, also when the sweep was moved since."""
-    candidates = [sweep_folder / name, Path(name), sweep_folder / Path(name).name]
-    return next((path for path in candidates if is_run(path)), candidates[0])
-
-
 def sweep_title(folder: Path, runs: Iterable[SweepRun]) -> str:
     for run in runs:
         if is_run(run.folder):
             return open_run(run.folder).title
     return folder.name
-
-
-def parse_value(text: str) -> Any:
-    """A cell as the TOML value it is; anything else is text."""
-    if text == "":
-        return None
-    try:
-        return tomllib.loads(f"value = {text}")["value"]
-    except tomllib.TOMLDecodeError:
-        return text
 
 
 def to_float(text: str) -> float:

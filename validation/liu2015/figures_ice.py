@@ -10,7 +10,7 @@ from matplotlib.patches import Circle
 
 from dilatedem.post.canvas import ICE_EDGE, STRUCTURE, STRUCTURE_EDGE, new_figure, styled
 from dilatedem.post.plan import View, draw_current, draw_domain, draw_floes, draw_structures, dress
-from dilatedem.post.snapshots import Snapshot, read_snapshot
+from dilatedem.results.snapshots import Snapshot, read_snapshot
 from validation.liu2015.figures import SHOWN_SEED, shown_run
 from validation.liu2015.ice import DRIFT, STRIP, empty_raster, rasterized, strips
 from validation.liu2015.measures import JAM, Ensemble, Result

@@ -8,7 +8,7 @@ import numpy as np
 
 from dilatedem.post.plan import periodic_copies
 from dilatedem.post.read import RunFolder
-from dilatedem.post.snapshots import Snapshot, read_snapshot
+from dilatedem.results.snapshots import Snapshot, read_snapshot
 
 CELL = 0.25  # m, of the raster that areas are counted on
 REACH = (-15.0, 10.0)  # m, of the raster along x from the pile's axis

@@ -10,7 +10,8 @@ from pathlib import Path
 import numpy as np
 
 from dilatedem.post.loads import angular_statistics, line_load, load_statistics, window_lengths
-from dilatedem.post.read import RunFolder, Table, open_run
+from dilatedem.post.read import RunFolder, open_run
+from dilatedem.results.tables import Table
 from validation.liu2015.ice import Raster, drift, mean_ice, strips
 from validation.liu2015.plan import Run, found
 from validation.liu2015.runner import completed, say, sources_of

@@ -4,7 +4,8 @@ import h5py
 import numpy as np
 import pytest
 
-from dilatedem.output.archive import ContactStatistics, FloeTable, LoadMap, RunArchive
+import dilatedem
+from dilatedem.output.archive import ANGLE_ORIGIN, ContactStatistics, FloeTable, LoadMap, RunArchive
 from dilatedem.state.modes import MODE_NAMES
 
 
@@ -35,8 +36,11 @@ def content(duration=2.0):
     return [pile, plane], statistics, floes
 
 
+ABOUT = {"title": "Ice against a pile", "seed": 3, "current_velocity_m_s": (-0.3, 0.3)}
+
+
 def written(path, *content):
-    archive = RunArchive(*content)
+    archive = RunArchive(*content, about=ABOUT)
     archive.write(path)
     archive.close()
 
@@ -64,7 +68,59 @@ def test_layout(tmp_path):
             np.testing.assert_array_equal(points[start[i] : start[i + 1]], outline)
         np.testing.assert_array_equal(file["floes/mass_kg"], floes.mass)
         names = {"body", "x0_m", "y0_m", "plan_area_m2", "mass_kg", "volume_m3", "vertices"}
-        assert set(file["floes"]) == names | {"outline_points", "outline_start"}
+        assert set(file["floes"]) == names | {"outline_points", "outline_start", "point", "xy"}
+
+
+def test_every_dataset_says_what_it_is_and_along_what(tmp_path):
+    written(tmp_path / "run.h5", *content())
+    with h5py.File(tmp_path / "run.h5") as file:
+        assert file.attrs["program"] == "dilatedem" and file.attrs["version"] == dilatedem.__version__
+        assert (file.attrs["title"], file.attrs["seed"]) == (ABOUT["title"], 3)
+        np.testing.assert_array_equal(file.attrs["current_velocity_m_s"], [-0.3, 0.3])
+        assert file.attrs["current_direction_deg"] == pytest.approx(135.0)
+        assert "SI units" in file.attrs["conventions"]
+        datasets = []
+        file.visititems(lambda name, item: datasets.append(item) if isinstance(item, h5py.Dataset) else None)
+        assert len(datasets) == 2 * 5 + 2 * 5 + 11
+        for dataset in datasets:
+            if dataset.name != "/floes/point":
+                assert dataset.attrs["units"] and dataset.attrs["long_name"]
+            assert dataset.is_scale or all(len(dimension) == 1 for dimension in dataset.dims)
+
+
+def test_still_water_has_no_direction(tmp_path):
+    archive = RunArchive(*content(), about={"current_velocity_m_s": (0.0, -0.0)})
+    archive.write(tmp_path / "run.h5")
+    archive.close()
+    with h5py.File(tmp_path / "run.h5") as file:
+        assert np.isnan(file.attrs["current_direction_deg"])
+
+
+def test_xarray_opens_it_with_every_dimension_named(tmp_path):
+    xarray = pytest.importorskip("xarray")
+    maps, statistics, floes = content()
+    written(tmp_path / "run.h5", maps, statistics, floes)
+
+    def opened(group):
+        return xarray.load_dataset(tmp_path / "run.h5", engine="h5netcdf", group=group)
+
+    pile, wall = opened("load_map/pile"), opened("load_map/wall")
+    assert pile.impulse_Ns.dims == ("angle", "height") and wall.impulse_Ns.dims == ("distance", "height")
+    np.testing.assert_array_equal(pile.impulse_Ns, maps[0].impulse)
+    np.testing.assert_allclose(pile.angle, np.arange(-157.5, 180.0, 45.0))
+    np.testing.assert_array_equal(pile.angle_edges_deg, maps[0].edges)
+    assert pile.angle.attrs == {"units": "degree", "long_name": ANGLE_ORIGIN}
+    assert pile.attrs["kind"] == "pile" and pile.attrs["duration_s"] == 2.0
+    contacts = opened("contacts/ice_ice")
+    assert contacts.max_force_N.sel(mode="face-face") == statistics["ice_ice"].max_force[6]
+    table = opened("floes")
+    assert table.mass_kg.dims == ("body",) and table.outline_points.dims == ("point", "xy")
+    assert table.mass_kg.sel(body=1) == 400.0
+    np.testing.assert_array_equal(table.outline_points.sel(xy="y")[3:], [0, 0, 1, 1])
+    assert opened(None).attrs["seed"] == 3
+    tree = xarray.open_datatree(tmp_path / "run.h5", engine="h5netcdf")
+    assert not [dim for node in tree.subtree for dim in node.dims if dim.startswith("phony_dim")]
+    tree.close()
 
 
 def test_rewritten_whole_and_reproducibly(tmp_path):
@@ -81,7 +137,7 @@ def test_brought_up_to_date_it_is_the_file_that_is_written_anew(tmp_path):
     maps, statistics, floes = content(duration=2.0)
     begin = [replace(load_map, impulse=np.zeros(load_map.impulse.shape), duration_s=0.0) for load_map in maps]
     none = {name: ContactStatistics(np.zeros(7, np.int64), *np.zeros((3, 7))) for name in statistics}
-    archive = RunArchive(begin, none, floes)
+    archive = RunArchive(begin, none, floes, about=ABOUT)
     archive.write(tmp_path / "run.h5")
     for _ in range(2):
         archive.update(maps, statistics)
@@ -112,3 +168,5 @@ def test_no_floes_and_no_structures(tmp_path):
     with h5py.File(tmp_path / "run.h5") as file:
         assert file["floes/outline_points"].shape == (0, 2)
         np.testing.assert_array_equal(file["floes/outline_start"], [0])
+    xarray = pytest.importorskip("xarray")
+    assert xarray.load_dataset(tmp_path / "run.h5", engine="h5netcdf", group="floes").sizes["body"] == 0

@@ -13,7 +13,7 @@ from dilatedem.post.loads import (
     mean_force_by_place,
     window_lengths,
 )
-from dilatedem.post.read import LoadMap
+from dilatedem.results.archive import LoadMap
 
 
 def history_of(fx, *, window=0.01, start=0.0, fy=None):

@@ -5,25 +5,12 @@ import numpy as np
 import pytest
 
 from dilatedem.errors import CaseError
-from dilatedem.post.read import open_run, read_table, row_count
-from dilatedem.post.snapshots import read_snapshot, snapshots_at
+from dilatedem.post.read import open_run
+from dilatedem.post.snapshots import snapshots_at
+from dilatedem.results.snapshots import read_snapshot
+from dilatedem.results.tables import row_count
 
 PLANE = {"kind": "plane", "name": "quay, north", "point": [9.0, 0.0, 0.0], "normal": [-1.0, 0.0, 0.0]}
-
-
-def test_table_leaves_out_a_line_that_was_cut_short(tmp_path):
-    path = tmp_path / "forces.csv"
-    path.write_text("time_s,structure,fx_N\n0.01,pile,12.5\n0.02,pile,13.5\n0.03,pile,1")
-    table = read_table(path)
-    assert table["time_s"].tolist() == [0.01, 0.02]
-    assert table["fx_N"].tolist() == [12.5, 13.5]
-    assert list(table["structure"]) == ["pile", "pile"]
-
-
-def test_table_without_rows_or_without_a_file_is_empty(tmp_path):
-    (tmp_path / "energy.csv").write_text("time_s,kinetic\n")
-    assert row_count(read_table(tmp_path / "energy.csv")) == 0
-    assert read_table(tmp_path / "missing.csv") == {}
 
 
 def test_forces_are_split_by_structure_in_the_order_of_the_case(make_run, tmp_path):

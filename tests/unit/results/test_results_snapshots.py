@@ -5,7 +5,7 @@ import pytest
 
 from dilatedem.geometry.polyhedron import prism
 from dilatedem.output.vtu import CELL_DATA, SnapshotWriter
-from dilatedem.post.snapshots import plan_outlines, read_snapshot
+from dilatedem.results.snapshots import plan_outlines, read_snapshot
 
 
 def bodies(count, random):
@@ -28,9 +28,9 @@ def test_snapshot_comes_back(tmp_path, count):
     SnapshotWriter(outers).write(tmp_path / "ice.vtu", position, upright, data)
     snapshot = read_snapshot(tmp_path / "ice.vtu", 3.0)
     assert snapshot.time == 3.0
-    assert sorted(snapshot.body) == list(range(count))
-    assert np.array_equal(snapshot.speed, data["speed"][snapshot.body])
-    assert np.array_equal(snapshot.velocity, data["velocity"][snapshot.body])
+    assert snapshot.body.tolist() == list(range(count))
+    for name in ("speed", "velocity", "angular_velocity", "contact_force", "contacts"):
+        assert np.array_equal(getattr(snapshot, name), data[name])
     for outline, body in zip(snapshot.outlines, snapshot.body, strict=True):
         true = outers[body].vertices[:, :2] + position[body, :2]
         assert {tuple(point) for point in np.round(outline, 9)} == {tuple(point) for point in np.round(true, 9)}

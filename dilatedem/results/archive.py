@@ -1,0 +1,114 @@
+"""run.h5: load maps, contact statistics and the table of floes; what is missing or unreadable stays empty."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import h5py
+import numpy as np
+
+from dilatedem.results.tables import Table
+
+#: of `floes`, what is no column of the table: outlines and their dimensions
+OUTLINES = frozenset({"outline_points", "outline_start", "point", "xy"})
+
+
+@dataclass(frozen=True)
+class LoadMap:
+    """Impulse that a structure took up, by place: around a pile or along a plane, and over height."""
+
+    structure: str
+    kind: str  # "pile" | "plane"
+    impulse: np.ndarray  # (places, heights) [N s], normal to the surface
+    place_edges: np.ndarray  # (places + 1,): degrees for a pile, metres for a plane
+    height_edges: np.ndarray  # (heights + 1,) [m], 0 is the water level
+    duration: float  # s over which the impulse was gathered
+    radius: float  # m, of a pile; nan otherwise
+    place: str = "angle"  # what place_edges are: "angle" | "distance"
+    unit: str = "deg"  # of place_edges
+    attributes: dict[str, Any] = field(default_factory=dict)  # all that run.h5 says of the map
+
+
+@dataclass(frozen=True)
+class FloeTable:
+    """The floes as they were at the start."""
+
+    outlines: list[np.ndarray]  # each (vertices, 2) [m], world coordinates at t = 0
+    plan_area: np.ndarray  # (n,) [m2]
+    mass: np.ndarray  # (n,) [kg]
+    columns: Table = field(default_factory=dict)  # every column of run.h5, by its name there
+
+
+@dataclass(frozen=True)
+class ContactStatistics:
+    """Counts and extremes of the contacts by mode, for one kind of pair."""
+
+    mode: list[str]
+    columns: Table  # steps, impulse_Ns, max_force_N, max_overlap_m, each (modes,)
+
+
+def read_archive(path: Path) -> tuple[dict[str, LoadMap], dict[str, ContactStatistics], FloeTable | None]:
+    """Load maps by structure, contact statistics by "ice_ice" and "ice_structure", floe table."""
+    maps: dict[str, LoadMap] = {}
+    contacts: dict[str, ContactStatistics] = {}
+    floes = None
+    try:
+        with h5py.File(path, "r") as archive:
+            for name, group in map_groups(archive.get("load_map", {})):
+                maps[name] = read_load_map(name, group)
+            for pair, group in archive.get("contacts", {}).items():
+                if isinstance(group, h5py.Group):
+                    contacts[pair] = read_contacts(archive["contacts"], group)
+            if "floes" in archive:
+                floes = read_floes(archive["floes"])
+    except (OSError, KeyError):
+        pass
+    return maps, contacts, floes
+
+
+def map_groups(parent: h5py.Group, prefix: str = "") -> Iterator[tuple[str, h5py.Group]]:
+    """Names and groups of the load maps; that of a structure's part is called `structure/part`."""
+    for name, group in parent.items():
+        if isinstance(group, h5py.Group):
+            if "impulse_Ns" in group:
+                yield f"{prefix}{name}", group
+            yield from map_groups(group, f"{prefix}{name}/")
+
+
+def read_load_map(name: str, group: h5py.Group) -> LoadMap:
+    edges = next((key for key in group if "_edges_" in key and key != "height_edges_m"), "place_edges_m")
+    place, unit = edges.split("_edges_")
+    attributes = {key: as_text(value) if isinstance(value, bytes | str) else value for key, value in group.attrs.items()}
+    return LoadMap(
+        structure=name,
+        kind=as_text(group.attrs.get("kind", "pile" if place == "angle" else "plane")),
+        impulse=group["impulse_Ns"][()],
+        place_edges=group[edges][()],
+        height_edges=group["height_edges_m"][()],
+        duration=float(group.attrs.get("duration_s", math.nan)),
+        radius=float(group.attrs.get("radius_m", math.nan)),
+        place=place,
+        unit=unit,
+        attributes=attributes,
+    )
+
+
+def read_contacts(parent: h5py.Group, group: h5py.Group) -> ContactStatistics:
+    names = parent["mode_names"][()] if "mode_names" in parent else parent.attrs["mode_names"]
+    columns = {name: np.asarray(data[()], dtype=np.float64) for name, data in group.items() if data.dtype.kind in "iuf"}
+    return ContactStatistics([as_text(name) for name in names], columns)
+
+
+def read_floes(group: h5py.Group) -> FloeTable:
+    points, start = group["outline_points"][()], group["outline_start"][()]
+    outlines = [points[first:last] for first, last in zip(start[:-1], start[1:], strict=True)]
+    columns = {name: data[()] for name, data in group.items() if name not in OUTLINES}
+    return FloeTable(outlines, group["plan_area_m2"][()], group["mass_kg"][()], columns)
+
+
+def as_text(value: Any) -> str:
+    return value.decode() if isinstance(value, bytes) else str(value)
