@@ -80,6 +80,7 @@ def _picture(case: Case, placed: Scene) -> Callable[[Path], None]:
     from dilatedem.post import canvas, plan
     from dilatedem.post.figures_field import panel_height
     from dilatedem.post.read import RunFolder
+    from dilatedem.results.archive import PlanOutline
 
     # The figures of a run are drawn from its folder; this is one that holds nothing but the case.
     scene = RunFolder(
@@ -89,6 +90,11 @@ def _picture(case: Case, placed: Scene) -> Callable[[Path], None]:
         forces={},
         energy={},
         snapshots=[],
+        outlines={
+            structure.name: PlanOutline(sketch.outline, sketch.bounded)
+            for structure, sketch in ((each, each.about.sketch(math.hypot(*case.domain.size))) for each in placed.structures)
+            if sketch
+        },
     )
 
     @canvas.styled
@@ -102,7 +108,7 @@ def _picture(case: Case, placed: Scene) -> Callable[[Path], None]:
         size = np.sqrt(placed.plan_area)
         style = {"cmap": SIZE_MAP, "edgecolors": canvas.ICE_EDGE, "linewidths": 0.4}
         floes = plan.draw_floes(axes, scene, view, outlines, array=size, **style)
-        plan.draw_structures(axes, scene, view)
+        plan.draw_structures(axes, scene)
         plan.draw_current(axes, scene)
         bar = figure.colorbar(floes, ax=axes, shrink=0.85, pad=0.02)
         bar.set_label("Floe size, root of the plan area (m)")

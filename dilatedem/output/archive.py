@@ -20,8 +20,6 @@ from dilatedem.output import dimensions, folder
 from dilatedem.output.atomic import replacing
 from dilatedem.state.modes import MODE_NAMES
 
-ANGLE_ORIGIN = "angle about the pile's centre: 0 = +x, the lee side; -180 and 180 = -x, the upstream side"
-DISTANCE_ORIGIN = "horizontal coordinate along the plane, from center_m in the direction of axis"
 CONVENTIONS = (
     "SI units, that of a dataset in its attribute units, that of an attribute at the end of its name; "
     "z up from the water level; directions in degrees from +x, counter-clockwise seen from above"
@@ -48,25 +46,43 @@ class LoadMap:
     """Normal impulse on one structure, summed over the run in bins of position.
 
     structure    name
-    kind         "pile" (first axis: angle) or "plane" (first axis: distance)
+    kind         of the structure, as in the case file
     impulse      (bins, height bins) [N s]
-    edges        (bins + 1,) bounds of the first axis: [deg], -180 to 180, for a pile; [m] for a plane
+    place        what the first axis is: "angle" [deg] or "distance" [m]
+    label, zero  that axis in words, and where its zero lies
+    edges        (bins + 1,) bounds of the first axis
     height_edges (height bins + 1,) [m]
     duration_s   time over which the impulse was summed
-    center       (2,) centre of a pile in plan, or (3,) a plane's origin of distance [m]
-    radius       of a pile [m]; None for a plane
-    axis         (3,) unit vector along which a plane's distance is measured; None for a pile
+    center       (2,) the structure's centre in plan, or (3,) the point that distances are measured from [m]
+    radius       of the surface that angles run around [m]; None for distances
+    axis         (3,) unit vector along which distances are measured; None where they are not along a line
     """
 
     structure: str
     kind: str
     impulse: np.ndarray
+    place: str
+    label: str
+    zero: str
     edges: np.ndarray
     height_edges: np.ndarray
     duration_s: float
     center: Sequence[float]
     radius: float | None = None
     axis: Sequence[float] | None = None
+
+
+class PlanOutline(NamedTuple):
+    """A structure in plan, at the water level.
+
+    structure: name; kind: as in the case file; outline (k, 2) [m], none (0, 2) where the water level does not cut it; bounded:
+    whether the outline closes around it; else its first side is its face, and the solid goes on behind it.
+    """
+
+    structure: str
+    kind: str
+    outline: np.ndarray
+    bounded: bool
 
 
 class ContactStatistics(NamedTuple):
@@ -105,6 +121,7 @@ class RunArchive:
     load_maps           of all structures
     contact_statistics  of "ice_ice" and "ice_structure"
     floes               of the run's begin
+    outlines            of all structures in plan
     about               attributes of the file, such as `title`, `seed`; `current_velocity_m_s` (2,) gives its direction, too
 
     Raises ValueError for load maps or statistics of the wrong shape; `update` does so, too.
@@ -112,7 +129,7 @@ class RunArchive:
 
     def __init__(
         self, load_maps: Sequence[LoadMap], contact_statistics: dict[str, ContactStatistics], floes: FloeTable, *,
-        about: Mapping[str, Any] | None = None,
+        outlines: Sequence[PlanOutline] = (), about: Mapping[str, Any] | None = None,
     ):  # fmt: skip
         changing = _changing(load_maps, contact_statistics)
         self._file = h5py.File(folder.RUN_ARCHIVE, "w", driver="core", backing_store=False)
@@ -120,6 +137,9 @@ class RunArchive:
         maps = self._file.create_group("load_map", track_order=True)
         for load_map in load_maps:
             _write_load_map(maps.create_group(load_map.structure), load_map)
+        structures = self._file.create_group("structures", track_order=True)
+        for outline in outlines:
+            _write_outline(structures.create_group(outline.structure), outline)
         contacts = self._file.create_group("contacts")
         contacts.attrs["mode_names"] = list(MODE_NAMES)
         for partners, statistics in contact_statistics.items():
@@ -158,12 +178,10 @@ def _write_about(file: h5py.File, about: Mapping[str, Any]) -> None:
 
 def _write_load_map(group: h5py.Group, load_map: LoadMap) -> None:
     """A load map with its coordinates: the centres of the bins; their bounds lie along dimensions of their own."""
-    on_pile = load_map.kind == "pile"
-    origin = ANGLE_ORIGIN if on_pile else DISTANCE_ORIGIN
-    place, bounds, unit = ("angle", "angle_edges_deg", "degree") if on_pile else ("distance", "distance_edges_m", "m")
+    unit, short = ("degree", "deg") if load_map.place == "angle" else ("m", "m")
     axes = []
     for name, edges, edges_name, units, meaning in (
-        (place, load_map.edges, bounds, unit, origin),
+        (load_map.place, load_map.edges, f"{load_map.place}_edges_{short}", unit, load_map.zero),
         ("height", load_map.height_edges, "height_edges_m", "m", "height above the water level"),
     ):
         centres = 0.5 * (np.asarray(edges)[1:] + np.asarray(edges)[:-1])
@@ -174,11 +192,20 @@ def _write_load_map(group: h5py.Group, load_map: LoadMap) -> None:
     group.attrs["kind"] = load_map.kind
     group.attrs["duration_s"] = load_map.duration_s
     group.attrs["center_m"] = np.asarray(load_map.center, dtype=float)
-    group.attrs["first_axis"] = origin
+    group.attrs["first_axis"] = load_map.zero
+    group.attrs["axis_label"] = load_map.label
     if load_map.radius is not None:
         group.attrs["radius_m"] = load_map.radius
     if load_map.axis is not None:
         group.attrs["axis"] = np.asarray(load_map.axis, dtype=float)
+
+
+def _write_outline(group: h5py.Group, outline: PlanOutline) -> None:
+    corner, xy = dimensions.dimension(group, "corner", len(outline.outline)), ["x", "y"]
+    axes = [corner, dimensions.coordinate(group, "xy", xy, "1", "component")]
+    dimensions.write(group, "outline_m", outline.outline, "m", "outline in plan at the water level, counter-clockwise", axes)
+    group.attrs["kind"] = outline.kind
+    group.attrs["bounded"] = int(outline.bounded)
 
 
 def _write_statistics(group: h5py.Group, statistics: ContactStatistics) -> None:

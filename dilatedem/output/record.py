@@ -1,12 +1,14 @@
 """run.h5 as an observer: where on each structure the load acted, how floes touched, the floes of the start."""
 
+import math
+
 import numpy as np
 
 from dilatedem.output import folder
-from dilatedem.output.archive import ContactStatistics, FloeTable, LoadMap, RunArchive
+from dilatedem.output.archive import ContactStatistics, FloeTable, LoadMap, PlanOutline, RunArchive
 from dilatedem.output.observer import Observer
-from dilatedem.state.charts import Along
 from dilatedem.state.loads import HEIGHT_BINS, PLACE_BINS
+from dilatedem.structures.kind import Sketch
 
 
 class Record(Observer):
@@ -26,7 +28,7 @@ class Record(Observer):
             case = self.simulation.case
             current = case.water.velocity if case.water.enabled else (0.0, 0.0)
             about = {"title": case.title, "seed": case.field.seed, "current_velocity_m_s": current}
-            self._archive = RunArchive(maps, statistics, self._floe_table(), about=about)
+            self._archive = RunArchive(maps, statistics, self._floe_table(), outlines=self._outlines(), about=about)
         self._archive.write(self.out / folder.RUN_ARCHIVE)
 
     def _load_maps(self) -> list[LoadMap]:
@@ -35,11 +37,11 @@ class Record(Observer):
         maps = []
         for s, structure in enumerate(simulation.scene.structures):
             chart, (low, high) = structure.chart, simulation.model.charts.heights[s]
-            around = chart.along == Along.ANGLE
             maps.append(LoadMap(
-                structure=structure.name, kind=structure.about.kind, impulse=impulse[s].copy(), edges=chart.edges(PLACE_BINS),
+                structure=structure.name, kind=structure.about.kind, impulse=impulse[s].copy(), place=chart.place,
+                label=chart.label, zero=chart.zero, edges=chart.edges(PLACE_BINS),
                 height_edges=np.linspace(low, high, HEIGHT_BINS + 1), duration_s=simulation.time_s,
-                center=structure.about.center if around else structure.about.point, radius=chart.radius, axis=chart.axis,
+                center=structure.about.place[:2] if chart.origin is None else chart.origin, radius=chart.radius, axis=chart.axis,
             ))  # fmt: skip
         return maps
 
@@ -58,6 +60,13 @@ class Record(Observer):
             body=np.arange(scene.count), x0=scene.position[:, 0], y0=scene.position[:, 1], plan_area=scene.plan_area,
             mass=scene.mass(), volume=scene.volume(), vertices=scene.core_vertices(), outlines=scene.outlines,
         )  # fmt: skip
+
+    def _outlines(self) -> list[PlanOutline]:
+        extent, outlines = math.hypot(*self.simulation.case.domain.size), []
+        for structure in self.simulation.scene.structures:
+            sketch = structure.about.sketch(extent) or Sketch(np.zeros((0, 2)), bounded=False)
+            outlines.append(PlanOutline(structure.name, structure.about.kind, sketch.outline, sketch.bounded))
+        return outlines
 
     def close(self) -> None:
         if self._archive:

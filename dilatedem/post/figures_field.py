@@ -81,7 +81,7 @@ def speed_figure(run: RunFolder, snapshots: list[Snapshot]) -> Drawing:
         draw_domain(axes, run)
         style = {"cmap": SPEED_MAP, "clim": (0.0, highest), "edgecolors": ICE_EDGE, "linewidths": 0.35}
         floes = draw_floes(axes, run, view, snapshot.outlines, array=snapshot.speed, **style)
-        draw_structures(axes, run, view)
+        draw_structures(axes, run)
         axes.set_title(f"t = {number(snapshot.time)} s")
         fastest = max(fastest, float(snapshot.speed.max(initial=0.0)))
     draw_current(panels[0], run)
@@ -104,7 +104,7 @@ def draw_scene(axes: Axes, run: RunFolder, outlines: list[np.ndarray], view: Vie
     draw_domain(axes, run)
     colours = np.where(fixed, FAST_ICE, ICE)
     draw_floes(axes, run, view, outlines, facecolors=list(colours), edgecolors=ICE_EDGE, linewidths=0.5)
-    draw_structures(axes, run, view)
+    draw_structures(axes, run)
 
 
 def fixed_floes(run: RunFolder, body: np.ndarray) -> np.ndarray:
@@ -141,11 +141,11 @@ def panel_grid(view: View, count: int, *, bar: bool = False) -> tuple[Figure, li
 def scene_words(run: RunFolder) -> str:
     """What else the picture holds besides floes."""
     words = []
-    kinds = [structure.get("kind") for structure in run.structures]
-    if "pile" in kinds:
-        words.append("the pile in orange" if kinds.count("pile") == 1 else "the piles in orange")
-    if "plane" in kinds:
-        words.append("planes hatched on their solid side")
+    bounded = [structure.bounded for structure in run.outlines.values() if len(structure.outline)]
+    if any(bounded):
+        words.append("the structure in orange" if bounded.count(True) == 1 else "structures in orange")
+    if not all(bounded):
+        words.append("unbounded ones hatched on their solid side")
     sides = dict.fromkeys(SIDES.get(kind, kind) for kind in run.boundaries)
     words.append(f"the domain's sides {' and '.join(sides)}")
     if math.hypot(*run.current) > 0.0:

@@ -123,7 +123,7 @@ def peak_figure(structure: str, history: Table) -> Drawing | None:
 
 @styled
 def load_around_figure(load_map: LoadMap, upstream: float | None) -> Drawing:
-    """Mean line load around a pile, in the directions of the plan view."""
+    """Mean line load around an upright structure, in the directions of the plan view."""
     load = line_load(load_map) / 1e3
     edges = np.radians(load_map.place_edges)
     figure = new_figure(5.4, 5.4)
@@ -181,14 +181,14 @@ def load_map_figure(load_map: LoadMap, upstream: float | None) -> Drawing | None
     """Mean pressure on the developed surface: around (or along) and over height, where any ice touched."""
     if not load_map.impulse.any() or not load_map.duration > 0.0:
         return None
-    pile = load_map.kind == "pile"
+    around = load_map.place == "angle"
     across = np.diff(load_map.place_edges)
-    if pile:
+    if around:
         across = np.radians(across) * load_map.radius
     area = across[:, None] * np.diff(load_map.height_edges)[None, :]
     pressure = load_map.impulse / load_map.duration / area / 1e3
     edges = load_map.place_edges
-    if pile and upstream is not None:
+    if around and upstream is not None:
         edges, pressure = seen_from(upstream, edges, pressure)
     figure = new_figure(7.2, 2.9)
     axes = figure.add_subplot()
@@ -204,12 +204,12 @@ def load_map_figure(load_map: LoadMap, upstream: float | None) -> Drawing | None
     axes.axhline(0.0, color=BLACK, linewidth=0.7, linestyle=(0, (6, 3)))
     axes.set_ylabel("Height above water (m)")
     origin = "the upstream direction" if upstream is not None else "the +x side"
-    if pile:
+    if around:
         axes.set_xticks(range(-180, 181, 45))
         axes.set_xlim(edges[0], edges[-1])
         axes.set_xlabel(f"Angle from {origin} (°), counter-clockwise seen from above")
     else:
-        axes.set_xlabel("Distance along the plane (m)")
+        axes.set_xlabel(f"{load_map.label or 'Distance'} (m)")
     caption = (
         f"Where the ice pressed on {load_map.structure}: mean normal pressure (kPa, log scale) over "
         f"{number(load_map.duration)} s on the developed surface; white: never touched; dashed: still water."

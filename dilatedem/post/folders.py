@@ -103,7 +103,7 @@ def run_drawings(run: RunFolder) -> list[Drawing]:
             continue  # never touched
         drawings += [force_figure(name, history), peak_figure(name, history)]
         load_map = run.load_maps.get(name)
-        if load_map is not None and load_map.kind == "pile":
+        if load_map is not None and load_map.place == "angle":
             drawings.append(load_around_figure(load_map, upstream))
         if load_map is not None:
             drawings.append(load_map_figure(load_map, upstream))
@@ -125,7 +125,7 @@ def run_statistics(run: RunFolder) -> dict[str, Any]:
     for name, history in run.forces.items():
         loads[name] = load_statistics(history)
         load_map = run.load_maps.get(name)
-        if load_map is not None and load_map.kind == "pile":
+        if load_map is not None and load_map.place == "angle":
             loads[name]["around"] = angular_statistics(load_map, run.upstream_angle)
     share = residual_share(run.energy) if row_count(run.energy) else None
     return {"simulated_s": run.simulated, "loads": loads, "largest_residual_over_work": share}

@@ -91,22 +91,22 @@ def peak_statistics(highest: np.ndarray, lengths: np.ndarray) -> dict[str, Any]:
 
 
 def mean_force_by_place(load_map: LoadMap) -> np.ndarray:
-    """Mean normal force (places,) [N] on each sector of a pile, or strip of a plane, over all heights."""
+    """Mean normal force (places,) [N] on each sector or strip of a structure, over all heights."""
     if not load_map.duration > 0.0:
         return np.zeros(load_map.impulse.shape[0])
     return load_map.impulse.sum(axis=1) / load_map.duration
 
 
 def line_load(load_map: LoadMap) -> np.ndarray:
-    """Mean normal force per length (places,) [N/m] around a pile, or along a plane."""
+    """Mean normal force per length (places,) [N/m] around a structure or along it."""
     width = np.diff(load_map.place_edges)
-    if load_map.kind == "pile":
+    if load_map.place == "angle":
         width = np.radians(width) * load_map.radius
     return mean_force_by_place(load_map) / width
 
 
 def angular_statistics(load_map: LoadMap, upstream: float | None) -> dict[str, Any]:
-    """Where around a pile the load sits.
+    """Where around a structure the load sits.
 
     upstream: direction the current comes from, degrees from +x; None leaves the shares about it out.
     """

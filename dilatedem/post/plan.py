@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
-from matplotlib.patches import Circle, Polygon, Rectangle
+from matplotlib.patches import Polygon, Rectangle
 from matplotlib.ticker import MaxNLocator
 
 from dilatedem.post.canvas import BLACK, STRUCTURE, STRUCTURE_EDGE
@@ -61,10 +61,10 @@ def choose_view(run: RunFolder, fields: list[list[np.ndarray]]) -> View:
         reach = DRIFT_SHOWN * (high - low)
         limits[axis][0] = max(low - reach, min(low, float(stacked[:, axis].min())))
         limits[axis][1] = min(high + reach, max(high, float(stacked[:, axis].max())))
-        for structure in run.structures:
-            if structure.get("kind") == "pile":
-                centre, radius = structure["center"][axis], structure["radius"]
-                limits[axis] = [min(limits[axis][0], centre - radius), max(limits[axis][1], centre + radius)]
+        for structure in run.outlines.values():
+            if structure.bounded and len(structure.outline):
+                places = structure.outline[:, axis]
+                limits[axis] = [min(limits[axis][0], float(places.min())), max(limits[axis][1], float(places.max()))]
     margin = MARGIN * max(run.domain_size)
     return View((limits[0][0] - margin, limits[0][1] + margin), (limits[1][0] - margin, limits[1][1] + margin))
 
@@ -121,31 +121,19 @@ def draw_domain(axes: Axes, run: RunFolder) -> None:
             axes.plot(x, y, zorder=3, scalex=False, scaley=False, **line)
 
 
-def draw_structures(axes: Axes, run: RunFolder, view: View) -> None:
-    """Piles as disks; planes as a line, hatched on the solid side, unless they lie flat."""
-    for structure in run.structures:
-        if structure.get("kind") == "pile":
+def draw_structures(axes: Axes, run: RunFolder) -> None:
+    """Structures filled; unbounded ones as the line of their face, hatched on the solid side."""
+    for structure in run.outlines.values():
+        outline = structure.outline
+        if not len(outline):
+            continue
+        if structure.bounded:
             style = {"facecolor": STRUCTURE, "edgecolor": STRUCTURE_EDGE, "linewidth": 0.9, "zorder": 4}
-            axes.add_patch(Circle(structure["center"], structure["radius"], **style))
-        elif structure.get("kind") == "plane":
-            draw_plane(axes, structure, view)
-
-
-def draw_plane(axes: Axes, structure: dict, view: View) -> None:
-    """The line in which a plane cuts the water level, and a hatched strip on its solid side."""
-    normal = np.asarray(structure["normal"], dtype=float)
-    level = np.asarray(structure["point"], dtype=float)
-    steep = math.hypot(normal[0], normal[1])
-    if steep < 1e-6 * np.linalg.norm(normal):
-        return
-    across = normal[:2] / steep
-    # On the plane at z = 0: move from its point down the slope.
-    foot = level[:2] + across * (level[2] * normal[2] / steep)
-    along = np.array([-across[1], across[0]]) * (view.width + view.height)
-    depth = across * 0.03 * max(view.width, view.height)
-    corners = [foot - along, foot + along, foot + along - depth, foot - along - depth]
-    axes.add_patch(Polygon(corners, facecolor="none", edgecolor=STRUCTURE, hatch="////", linewidth=0.0, zorder=4))
-    axes.plot(*zip(corners[0], corners[1], strict=True), color=STRUCTURE_EDGE, linewidth=1.4, zorder=4)
+            axes.add_patch(Polygon(outline, **style))
+            continue
+        style = {"facecolor": "none", "edgecolor": STRUCTURE, "hatch": "////", "linewidth": 0.0, "zorder": 4}
+        axes.add_patch(Polygon(outline, **style))
+        axes.plot(*outline[:2].T, color=STRUCTURE_EDGE, linewidth=1.4, zorder=4, scalex=False, scaley=False)
 
 
 def draw_current(axes: Axes, run: RunFolder) -> None:

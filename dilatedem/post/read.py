@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from dilatedem.results.archive import ContactStatistics, FloeTable, LoadMap, read_archive
+from dilatedem.results.archive import ContactStatistics, FloeTable, LoadMap, PlanOutline, read_archive
 from dilatedem.results.files import list_snapshots, read_case, read_summary
 from dilatedem.results.tables import Table, read_table, row_count, split_by_structure
 
@@ -25,6 +25,7 @@ class RunFolder:
     load_maps: dict[str, LoadMap] = field(default_factory=dict)
     contacts: dict[str, ContactStatistics] = field(default_factory=dict)  # by "ice_ice", "ice_structure"
     floes: FloeTable | None = None
+    outlines: dict[str, PlanOutline] = field(default_factory=dict)  # by structure
 
     @property
     def title(self) -> str:
@@ -73,7 +74,7 @@ class RunFolder:
 def open_run(folder: Path) -> RunFolder:
     """Read the folder of one run. Raises CaseError when it holds no case.toml, or one that is not TOML."""
     case = read_case(folder)
-    maps, contacts, floes = read_archive(folder / "run.h5")
+    archive = read_archive(folder / "run.h5")
     return RunFolder(
         path=folder,
         case=case,
@@ -81,7 +82,8 @@ def open_run(folder: Path) -> RunFolder:
         forces=split_by_structure(read_table(folder / "forces.csv"), case),
         energy=read_table(folder / "energy.csv"),
         snapshots=list_snapshots(folder, case),
-        load_maps=maps,
-        contacts=contacts,
-        floes=floes,
+        load_maps=archive.load_maps,
+        contacts=archive.contacts,
+        floes=archive.floes,
+        outlines=archive.outlines,
     )

@@ -22,15 +22,24 @@ class LoadMap:
     """Impulse that a structure took up, by place: around a pile or along a plane, and over height."""
 
     structure: str
-    kind: str  # "pile" | "plane"
+    kind: str  # of the structure, as in the case file
     impulse: np.ndarray  # (places, heights) [N s], normal to the surface
-    place_edges: np.ndarray  # (places + 1,): degrees for a pile, metres for a plane
+    place_edges: np.ndarray  # (places + 1,): degrees or metres, as `unit` says
     height_edges: np.ndarray  # (heights + 1,) [m], 0 is the water level
     duration: float  # s over which the impulse was gathered
-    radius: float  # m, of a pile; nan otherwise
+    radius: float  # m, of the surface that angles run around; nan otherwise
     place: str = "angle"  # what place_edges are: "angle" | "distance"
     unit: str = "deg"  # of place_edges
+    label: str = ""  # the first axis in words
     attributes: dict[str, Any] = field(default_factory=dict)  # all that run.h5 says of the map
+
+
+@dataclass(frozen=True)
+class PlanOutline:
+    """A structure in plan, at the water level."""
+
+    outline: np.ndarray  # (corners, 2) [m]; none where the water level does not cut it
+    bounded: bool  # whether the outline closes around it; else its first side is its face, and the solid goes on behind it
 
 
 @dataclass(frozen=True)
@@ -51,23 +60,33 @@ class ContactStatistics:
     columns: Table  # steps, impulse_Ns, max_force_N, max_overlap_m, each (modes,)
 
 
-def read_archive(path: Path) -> tuple[dict[str, LoadMap], dict[str, ContactStatistics], FloeTable | None]:
-    """Load maps by structure, contact statistics by "ice_ice" and "ice_structure", floe table."""
-    maps: dict[str, LoadMap] = {}
-    contacts: dict[str, ContactStatistics] = {}
-    floes = None
+@dataclass
+class Archive:
+    """All of run.h5."""
+
+    load_maps: dict[str, LoadMap] = field(default_factory=dict)  # by structure
+    contacts: dict[str, ContactStatistics] = field(default_factory=dict)  # by "ice_ice", "ice_structure"
+    floes: FloeTable | None = None
+    outlines: dict[str, PlanOutline] = field(default_factory=dict)  # by structure
+
+
+def read_archive(path: Path) -> Archive:
+    """What there is of it."""
+    found = Archive()
     try:
         with h5py.File(path, "r") as archive:
             for name, group in map_groups(archive.get("load_map", {})):
-                maps[name] = read_load_map(name, group)
+                found.load_maps[name] = read_load_map(name, group)
             for pair, group in archive.get("contacts", {}).items():
                 if isinstance(group, h5py.Group):
-                    contacts[pair] = read_contacts(archive["contacts"], group)
+                    found.contacts[pair] = read_contacts(archive["contacts"], group)
             if "floes" in archive:
-                floes = read_floes(archive["floes"])
+                found.floes = read_floes(archive["floes"])
+            for name, group in archive.get("structures", {}).items():
+                found.outlines[name] = PlanOutline(group["outline_m"][()], bool(group.attrs["bounded"]))
     except (OSError, KeyError):
         pass
-    return maps, contacts, floes
+    return found
 
 
 def map_groups(parent: h5py.Group, prefix: str = "") -> Iterator[tuple[str, h5py.Group]]:
@@ -93,6 +112,7 @@ def read_load_map(name: str, group: h5py.Group) -> LoadMap:
         radius=float(group.attrs.get("radius_m", math.nan)),
         place=place,
         unit=unit,
+        label=as_text(group.attrs.get("axis_label", "")),
         attributes=attributes,
     )
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from dilatedem.errors import CaseError
-from dilatedem.results.archive import ContactStatistics, FloeTable, LoadMap, read_archive
+from dilatedem.results.archive import Archive, read_archive
 from dilatedem.results.files import list_snapshots, read_case, read_summary
 from dilatedem.results.maps import as_dataset
 from dilatedem.results.packages import imported
@@ -71,11 +71,11 @@ class Run:
     @property
     def load_map_names(self) -> list[str]:
         """The structures that have a load map."""
-        return list(self._archive[0])
+        return list(self._archive.load_maps)
 
     def load_map(self, structure: str) -> xarray.Dataset:
         """The load map of a structure: `impulse_Ns` by place and height; see `results.maps.as_dataset`."""
-        maps, _, _ = self._archive
+        maps = self._archive.load_maps
         if structure not in maps:
             known = f"there are maps of {', '.join(maps)}" if maps else "there is none in its run.h5"
             raise CaseError(f"{self.path}: no load map of {structure!r}; {known}")
@@ -85,7 +85,7 @@ class Run:
     def contacts(self) -> pandas.DataFrame:
         """Contact statistics: a row per kind of pair (`ice_ice`, `ice_structure`) and mode, which make the index."""
         pandas = imported("pandas")
-        _, contacts, _ = self._archive
+        contacts = self._archive.contacts
         if not contacts:
             raise CaseError(f"{self.path / 'run.h5'}: no contact statistics in it")
         frames = {pair: pandas.DataFrame(found.columns, index=found.mode) for pair, found in contacts.items()}
@@ -95,7 +95,7 @@ class Run:
     def floes(self) -> pandas.DataFrame:
         """The floes at t = 0, by their number: `x0_m`, `y0_m`, `plan_area_m2`, ... and `outline`, an array (k, 2) [m] each."""
         pandas = imported("pandas")
-        _, _, floes = self._archive
+        floes = self._archive.floes
         if floes is None:
             raise CaseError(f"{self.path / 'run.h5'}: no table of floes in it")
         columns = dict(floes.columns)
@@ -124,7 +124,7 @@ class Run:
         return list_snapshots(self.path, self.case)
 
     @cached_property
-    def _archive(self) -> tuple[dict[str, LoadMap], dict[str, ContactStatistics], FloeTable | None]:
+    def _archive(self) -> Archive:
         if not (self.path / "run.h5").is_file():
             raise CaseError(f"{self.path}: this run has no run.h5")
         return read_archive(self.path / "run.h5")

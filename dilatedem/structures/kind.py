@@ -55,7 +55,7 @@ class Part:
 class Chart:
     """How places on a structure are laid out flat: one coordinate around or along it, and the height over the water.
 
-    along: what the first coordinate runs along; label: what that coordinate is and where its zero lies, in words.
+    along: what the first coordinate runs along; label: what that coordinate is, for an axis; zero: where its zero lies, in words.
     ANGLE: radius [m] of the surface that it runs around, for loads per metre of it.
     LINE: origin (3,) [m], axis (3,) its unit vector, half [m]: it runs from -half to half.
     OUTLINE: outline (k, 2) [m], counter-clockwise, relative to the structure's centre; it runs from 0 to its length.
@@ -63,11 +63,17 @@ class Chart:
 
     along: Along
     label: str
+    zero: str
     radius: float | None = None
     origin: np.ndarray | None = None
     axis: np.ndarray | None = None
     half: float = 0.0
     outline: np.ndarray | None = None
+
+    @property
+    def place(self) -> str:
+        """Name of the first coordinate in run.h5."""
+        return "angle" if self.along == Along.ANGLE else "distance"
 
     def edges(self, bins: int) -> np.ndarray:
         """(bins + 1,) bounds of the first coordinate: degrees for an angle, else m."""

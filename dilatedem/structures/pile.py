@@ -52,8 +52,8 @@ class Pile(Structure):
         return [Disk(self.center, self.radius)]
 
     def chart(self, extent: float) -> Chart:
-        label = "angle about the pile's centre: 0 = +x, the lee side; -180 and 180 = -x, the upstream side"
-        return Chart(Along.ANGLE, label, radius=self.radius)
+        zero = "angle about the pile's centre: 0 = +x, the lee side; -180 and 180 = -x, the upstream side"
+        return Chart(Along.ANGLE, "Angle around the pile", zero, radius=self.radius)
 
     def drawing(self, extent: float) -> list[Polyhedron]:
         return [prism(circle(self.center, self.radius), DRAWN_BOTTOM, DRAWN_TOP)]

@@ -68,8 +68,8 @@ class Plane(Structure):
         across = np.cross([0.0, 0.0, 1.0], self.normal)
         length = np.linalg.norm(across)
         axis = across / length if length > 0.0 else np.array([1.0, 0.0, 0.0])
-        label = "horizontal coordinate along the plane, from center_m in the direction of axis"
-        return Chart(Along.LINE, label, origin=np.array(self.point), axis=axis, half=0.5 * extent)
+        zero = "horizontal coordinate along the plane, from center_m in the direction of axis"
+        return Chart(Along.LINE, "Distance along the plane", zero, origin=np.array(self.point), axis=axis, half=0.5 * extent)
 
     def drawing(self, extent: float) -> list[Polyhedron]:
         return [plate(self.point, self.normal, DRAWN_EXTENT * extent)]

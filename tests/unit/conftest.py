@@ -10,6 +10,8 @@ import numpy as np
 import pytest
 import tomli_w
 
+from dilatedem.structures.kinds import BY_NAME
+
 SIZE = (20.0, 16.0)  # m
 MODES = [
     "vertex-vertex", "vertex-edge", "vertex-face", "edge-edge crossing", "edge-edge parallel", "edge-face",
@@ -173,6 +175,10 @@ def write_archive(path, structures, outlines, duration):
             group.attrs["kind"], group.attrs["duration_s"] = structure["kind"], duration
             if pile:
                 group.attrs["radius_m"] = structure["radius"]
+            group = file.create_group(f"structures/{structure['name']}")
+            sketch = BY_NAME[structure["kind"]].model_validate(as_typed(structure)).sketch(30.0)
+            group["outline_m"] = sketch.outline if sketch else np.zeros((0, 2))
+            group.attrs["kind"], group.attrs["bounded"] = structure["kind"], int(bool(sketch and sketch.bounded))
         contacts = file.create_group("contacts")
         contacts.attrs["mode_names"] = MODES
         for pair in ("ice_ice", "ice_structure"):
@@ -185,6 +191,11 @@ def write_archive(path, structures, outlines, duration):
         group["plan_area_m2"], group["mass_kg"] = areas, 457.5 * areas
         group["outline_points"] = np.concatenate(outlines)
         group["outline_start"] = np.concatenate([[0], np.cumsum([len(outline) for outline in outlines])])
+
+
+def as_typed(structure: dict) -> dict:
+    """With a name that a case file may have: those of some tests are chosen to be awkward."""
+    return {**structure, "name": "any"}
 
 
 def polygon_area(outline):

@@ -38,7 +38,7 @@ def plan_views(ensemble: Ensemble, size: str) -> Figure | None:
             draw_domain(axes, result.folder)
             look = {"cmap": SPEED_MAP, "clim": (0.0, 1.1 * SIZE_SPEED), "edgecolors": ICE_EDGE, "linewidths": 0.3}
             floes = draw_floes(axes, result.folder, view, snapshot.outlines, array=snapshot.speed, **look)
-            draw_structures(axes, result.folder, view)
+            draw_structures(axes, result.folder)
             axes.set_title(f"{result.run.model}, t = {snapshot.time:.3g} s" if axes is row[0] else f"t = {snapshot.time:.3g} s")
         draw_current(row[-1], result.folder)
     bar = figure.colorbar(floes, ax=panels, extend="max", shrink=0.7, aspect=35, pad=0.015)

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 import dilatedem
-from dilatedem.output.archive import ANGLE_ORIGIN, ContactStatistics, FloeTable, LoadMap, RunArchive
+from dilatedem.output.archive import ContactStatistics, FloeTable, LoadMap, RunArchive
 from dilatedem.state.modes import MODE_NAMES
 
 
@@ -13,9 +13,12 @@ def content(duration=2.0):
     rng = np.random.default_rng(2)
     heights = np.linspace(-1.0, 1.0, 6)
     angles, distances = np.linspace(-180, 180, 9), np.linspace(-5, 5, 5)
-    pile = LoadMap("pile", "pile", rng.random((8, 5)), angles, heights, duration, (10.0, 0.0), radius=2.0)
+    pile = LoadMap(
+        "pile", "pile", rng.random((8, 5)), "angle", "Angle", "0 = +x", angles, heights, duration, (10.0, 0.0), radius=2.0
+    )
     plane = LoadMap(
-        "wall", "plane", rng.random((4, 5)), distances, heights, duration, (0, 1, 0), axis=(0, 1, 0)
+        "wall", "plane", rng.random((4, 5)), "distance", "Distance", "0 at center_m", distances, heights, duration, (0, 1, 0),
+        axis=(0, 1, 0),
     )
     numbers = np.arange(7.0)
     statistics = {
@@ -109,7 +112,7 @@ def test_xarray_opens_it_with_every_dimension_named(tmp_path):
     np.testing.assert_array_equal(pile.impulse_Ns, maps[0].impulse)
     np.testing.assert_allclose(pile.angle, np.arange(-157.5, 180.0, 45.0))
     np.testing.assert_array_equal(pile.angle_edges_deg, maps[0].edges)
-    assert pile.angle.attrs == {"units": "degree", "long_name": ANGLE_ORIGIN}
+    assert pile.angle.attrs == {"units": "degree", "long_name": "0 = +x"}
     assert pile.attrs["kind"] == "pile" and pile.attrs["duration_s"] == 2.0
     contacts = opened("contacts/ice_ice")
     assert contacts.max_force_N.sel(mode="face-face") == statistics["ice_ice"].max_force[6]
@@ -149,7 +152,7 @@ def test_brought_up_to_date_it_is_the_file_that_is_written_anew(tmp_path):
 
 def test_wrong_shapes_are_refused(tmp_path):
     maps, statistics, floes = content()
-    bad_map = LoadMap("pile", "pile", np.zeros((3, 3)), np.zeros(9), np.zeros(6), 1.0, (0, 0))
+    bad_map = LoadMap("pile", "pile", np.zeros((3, 3)), "angle", "Angle", "0 = +x", np.zeros(9), np.zeros(6), 1.0, (0, 0))
     short = {"ice_ice": ContactStatistics(*[np.zeros(6)] * 4)}
     with pytest.raises(ValueError, match="load map of pile"):
         RunArchive([bad_map], statistics, floes)
