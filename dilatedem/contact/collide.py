@@ -9,6 +9,7 @@ from dilatedem.contact.liu2015.press import press_liu2015
 from dilatedem.contact.search.closest import closest_points, farthest_vertex
 from dilatedem.jit import by_type, device, item
 from dilatedem.numerics.vector import accumulate, along, dot, load, norm, scale, store, sub
+from dilatedem.state.ledger import GAIN_LAW, LOSS_DAMPING, LOSS_FRICTION
 from dilatedem.state.setting import ConsistentSetting, ContactModel
 
 CONSISTENT = int(ContactModel.CONSISTENT)
@@ -43,9 +44,9 @@ def _meet_half_space(vertex, shapes, pairs, k, a, b, position):
 @device
 def _end_contact(pairs, k, dt):
     """No overlap, no spring, no force. What the spring still held is lost to friction."""
-    pairs.loss_friction[k] = 0.5 * pairs.shear_stiffness[k] * length(load(pairs.slip, k), pairs.wrung[k]) ** 2
-    pairs.loss_damping[k] = 0.5 * dt * pairs.damping_power[k]
-    pairs.gain_law[k] = 0.0
+    pairs.cost[k, LOSS_FRICTION] = 0.5 * pairs.shear_stiffness[k] * length(load(pairs.slip, k), pairs.wrung[k]) ** 2
+    pairs.cost[k, LOSS_DAMPING] = 0.5 * dt * pairs.damping_power[k]
+    pairs.cost[k, GAIN_LAW] = 0.0
     pairs.damping_power[k] = 0.0
     pairs.elastic_power[k] = 0.0
     pairs.overlap[k] = 0.0
@@ -150,9 +151,9 @@ def collide(k, dt, shapes, vertex, face_normal, solids, bodies, pairs, contact, 
             gain += 0.5 * (shear_stiffness - old_stiffness) * dot(before, slip)
             held_before = old_stiffness * norm(before)
         rubbed = 0.5 * (held + held_before) * slipped
-    pairs.gain_law[k] = gain
-    pairs.loss_damping[k] = 0.5 * dt * (damping_power + pairs.damping_power[k])
-    pairs.loss_friction[k] = rubbed
+    pairs.cost[k, GAIN_LAW] = gain
+    pairs.cost[k, LOSS_DAMPING] = 0.5 * dt * (damping_power + pairs.damping_power[k])
+    pairs.cost[k, LOSS_FRICTION] = rubbed
 
     pairs.damping_power[k] = damping_power
     pairs.elastic_power[k] = elastic_power

@@ -5,6 +5,7 @@ from dilatedem.jit import device
 from dilatedem.motion.integrate import kinetic_energy
 from dilatedem.numerics.rotation import rotation_matrix
 from dilatedem.numerics.vector import load
+from dilatedem.state.ledger import BUOYANCY, ELASTIC, GRAVITY, KINETIC
 from dilatedem.water.floating import submerge
 
 
@@ -36,4 +37,5 @@ def book_energies(model, bodies, pairs, workspace, ledger):
     for k in range(pairs.count[0]):
         if pairs.overlap[k] > 0.0:
             elastic += pairs.stored[k] + 0.5 * pairs.shear_stiffness[k] * length(load(pairs.slip, k), pairs.wrung[k]) ** 2
-    ledger.kinetic[0], ledger.gravity[0], ledger.buoyancy[0], ledger.elastic[0] = kinetic, weight, buoyancy, elastic
+    stored = ledger.instant
+    stored[KINETIC], stored[GRAVITY], stored[BUOYANCY], stored[ELASTIC] = kinetic, weight, buoyancy, elastic

@@ -29,10 +29,10 @@ from dilatedem.scene.place import (
 )
 from dilatedem.state.bodies import Bodies
 from dilatedem.state.clock import Clock, Status, clock_at_start
-from dilatedem.state.ledger import Ledger, empty_ledger
+from dilatedem.state.ledger import Ledger, empty_ledger, energies
 from dilatedem.state.loads import Loads, Windows, empty_loads, no_windows
 from dilatedem.state.model import Model
-from dilatedem.state.pairs import Pairs, empty_pairs, grown, in_use
+from dilatedem.state.pairs import Pairs, empty_pairs, grown, in_use, unpacked
 from dilatedem.state.storage import Cells, Tally, Workspace, empty_tally, make_cells, make_workspace
 from dilatedem.step.advance import advance
 
@@ -136,10 +136,8 @@ class Simulation:
 
     def energies(self) -> dict[str, float]:
         """The ledger as `advance` left it, in J: the columns of energy.csv (without time and residual)."""
-        ledger = {name: float(value[0]) for name, value in self.state.ledger._asdict().items()}
-        ledger["work_drag"] = float(self.state.bodies.work_drag.sum())
-        ledger["work_structure"] = 0.0  # structures do not move
-        return ledger
+        structures = 0.0  # they do not move
+        return energies(self.state.ledger, float(self.state.bodies.work_drag.sum()), structures)
 
     def assembled_step_ratio(self) -> float:
         """dt over the critical step of the contacts that were open when `advance` came back (an upper bound)."""
@@ -298,7 +296,7 @@ def _load_checkpoint(out: Path, case: Case, simulation: Simulation) -> dict:
     state, room = simulation.state, len(simulation.state.pairs.a)
     for name, current in state.groups().items():
         setattr(state, name, checkpoint.restore(type(current), groups[name], where=str(out / folder.CHECKPOINT)))
-    state.pairs = grown(state.pairs, max(room, len(state.pairs.a)))
+    state.pairs = unpacked(state.pairs, max(room, len(state.pairs.a)))
     state.totals = Totals(**meta["totals"])
     if state.watch:
         state.watch.restore(groups, meta["watch"], where=str(out / folder.CHECKPOINT))

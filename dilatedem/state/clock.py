@@ -18,10 +18,9 @@ class Status(IntEnum):
 
 
 class Clock(NamedTuple):
-    """How far a run is, why it stopped, and the work it has done: counts that are the same on every machine."""
+    """How far a run is, who made it stop, and the work it has done: counts that are the same on every machine."""
 
     step: np.ndarray  # (1,) steps done
-    status: np.ndarray  # (1,) Status
     culprit: np.ndarray  # (2,) bodies at fault, -1 = none
     measure: np.ndarray  # (1,) the move or the overlap at fault, m
     moves: np.ndarray  # (1,) bodies moved, each once in a step or, idle ones, in a span

@@ -4,6 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from dilatedem.state.ledger import COSTS
 from dilatedem.state.modes import MODE_COUNT
 
 #: parts of a `Tally`, and the most threads that can share the evaluation of pairs
@@ -49,9 +50,7 @@ class Tally(NamedTuple):
     """
 
     work: np.ndarray  # (PARTS, 2) pairs evaluated, rounds of their distance searches
-    loss_damping: np.ndarray  # (PARTS,) J
-    loss_friction: np.ndarray  # (PARTS,) J
-    gain_law: np.ndarray  # (PARTS,) J
+    cost: np.ndarray  # (PARTS, COSTS) J of each of `state.ledger.COSTS`
     mode_steps: np.ndarray  # (PARTS, 2, MODE_COUNT) and so on as in `Loads`
     mode_impulse: np.ndarray
     mode_force: np.ndarray
@@ -91,6 +90,4 @@ def make_workspace(shapes, hulls, capacity: int, threads: int) -> Workspace:
 
 def empty_tally() -> Tally:
     per_mode = (np.zeros((PARTS, 2, MODE_COUNT)) for _ in range(4))
-    return Tally(
-        np.zeros((PARTS, 2), np.int64), np.zeros(PARTS), np.zeros(PARTS), np.zeros(PARTS), *per_mode, np.full(PARTS, -1, np.int64)
-    )
+    return Tally(np.zeros((PARTS, 2), np.int64), np.zeros((PARTS, len(COSTS))), *per_mode, np.full(PARTS, -1, np.int64))
