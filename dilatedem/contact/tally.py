@@ -1,7 +1,6 @@
 """What contacts cost and showed: booked pair by pair in a fixed number of parts, so that sums do not depend on the threads."""
 
-from dilatedem.contact.collide import CONSISTENT
-from dilatedem.contact.consistent.press import DEEPEST_SHARE
+from dilatedem.contact.laws import deepest
 from dilatedem.jit import device, item
 from dilatedem.state.ledger import COSTS
 
@@ -66,8 +65,6 @@ def too_deep(tally, pairs, clock):
 
 @item
 def deepest_overlap(a, b, shapes, contact):
-    """Overlap [m] past which rounded edges mean nothing any more."""
+    """Overlap [m] past which rounded edges mean nothing any more, or the law does not."""
     smaller = shapes.radius[a] if shapes.kind[b] != 0 else min(shapes.radius[a], shapes.radius[b])
-    if contact.model == CONSISTENT:
-        return min(DEEPEST * smaller, DEEPEST_SHARE * (shapes.radius[a] + shapes.radius[b]))
-    return DEEPEST * smaller
+    return min(DEEPEST * smaller, deepest(contact, shapes.radius[a] + shapes.radius[b]))

@@ -17,7 +17,7 @@ from dilatedem.geometry.shapes import BodyShape, pack_hulls, pack_shapes
 from dilatedem.numerics.frames import matrix_from_quaternion, quaternion_from_rotation_vector
 from dilatedem.state.bodies import Bodies, Solids, bodies_at_rest
 from dilatedem.state.model import Model
-from dilatedem.state.setting import ConsistentSetting, ContactModel, ContactSetting, Surroundings
+from dilatedem.state.setting import CONTACT_SETTINGS, ContactSetting, Surroundings
 from dilatedem.state.storage import MOST_CORNERS
 
 Structure = PileStructure | PlaneStructure
@@ -226,9 +226,7 @@ def build_model(case: Case, scene: Scene) -> Model:
 
 def _contact_setting(case: Case) -> ContactSetting:
     contact = case.contact
-    model = ContactModel[contact.model.upper()]
-    setting = ConsistentSetting if model == ContactModel.CONSISTENT else ContactSetting
-    return setting(int(model), contact.damping, contact.friction, contact.stiffness_ratio)
+    return CONTACT_SETTINGS[contact.model](contact.damping, contact.friction, contact.stiffness_ratio)
 
 
 def _require_one_image(case: Case, scene: Scene, reach: np.ndarray, periodic: tuple[bool, bool]) -> None:

@@ -31,8 +31,10 @@ class Workspace(NamedTuple):
     busy: np.ndarray  # (n,) bodies of near pairs, in order
     idle: np.ndarray  # (n,) all others, in order
     is_busy: np.ndarray  # (n,)
+    everybody: np.ndarray  # (n,) all bodies, in order
     room: np.ndarray  # (n,) m, how far a body is taken to get at most
     horizon: np.ndarray  # (n,) m, path at which a body has got farther than it was taken to
+    stiffness: np.ndarray  # (n,) 1/s2, of the contacts of a body over what it opposes to them
     instant: np.ndarray  # (1,) counts the instants at which pairs were evaluated
     turned: np.ndarray  # (threads, n) instant to which a thread has turned a body's shape; negative: asked for it
     fault: np.ndarray  # (threads,) body that moves too fast, -1 = none
@@ -75,8 +77,10 @@ def make_workspace(shapes, hulls, capacity: int, threads: int) -> Workspace:
         busy=np.zeros(bodies, np.int64),
         idle=np.zeros(bodies, np.int64),
         is_busy=np.zeros(bodies, np.bool_),
+        everybody=np.arange(bodies),
         room=np.zeros(bodies),
         horizon=np.zeros(bodies),
+        stiffness=np.zeros(bodies),
         instant=np.zeros(1, np.int64),
         turned=np.zeros((threads, bodies), np.int64),
         fault=np.full(threads, -1, np.int64),
