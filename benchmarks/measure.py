@@ -12,7 +12,7 @@ from benchmarks.timed_step import STAGES, timed
 from benchmarks.yardstick import coal_step
 from dilatedem.run.simulation import Simulation
 from dilatedem.state.clock import Status
-from dilatedem.state.pairs import grown
+from dilatedem.state.pairs import unpacked
 
 #: steps before the first that is timed: friction springs that the copies of a scene start without
 WARMING = 100
@@ -59,13 +59,16 @@ class Replay:
         """Back to the start of the stretch; one step more is taken, so that no memory is touched for the first time afterwards."""
         state = self.simulation.state
         for name, group in self._saved.items():
+            if name == "pairs":
+                state.pairs = unpacked(group, len(group.a))
+                continue
             current = getattr(state, name)
             fits = all(now.shape == then.shape for now, then in zip(current, group, strict=True))
             if fits:
                 for now, then in zip(current, group, strict=True):
                     now[...] = then
             else:
-                setattr(state, name, grown(group, len(group.a)) if name == "pairs" else _copied(group))
+                setattr(state, name, _copied(group))
         self.simulation.make_room()  # a workspace may remember steps that are to come again
         self._run(1)
 

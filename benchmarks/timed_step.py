@@ -106,7 +106,7 @@ def timed_advance(
     close_tally(tally, ledger, loads, clock)
     complete_spins(model, bodies)
     book_energies(model, bodies, pairs, workspace, ledger)
-    clock.frequency[0] = assembled_frequency(model.solids, bodies, pairs, workspace.room)
+    clock.frequency[0] = assembled_frequency(model.solids, bodies, pairs, workspace)
     return status
 
 

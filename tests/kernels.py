@@ -12,9 +12,9 @@ from dilatedem.contact.consistent.join import pose_energy
 from dilatedem.contact.consistent.line import line_energy, press_edge
 from dilatedem.contact.consistent.point import elliptic, press_vertex
 from dilatedem.contact.consistent.rim import strongest_rim
-from dilatedem.contact.friction import carried_over, rescaled, slide, viscous_share
 from dilatedem.contact.liu2015.patch import contact_patch
 from dilatedem.contact.search.closest import closest_points
+from dilatedem.contact.spring import carried_over, rescaled, slide, viscous_share
 from dilatedem.contact.turning import turn_shape
 from dilatedem.jit import device, kernel
 from dilatedem.numerics.vector import store

@@ -1,17 +1,12 @@
 """One pair of bodies: gap, patch, forces, and the energy that the step cost. The result is written to the pair alone."""
 
-from math import sqrt
-
-from dilatedem.contact.consistent.press import press_consistent
-from dilatedem.contact.friction import carried_over, length, rescaled, slide, viscous_share
-from dilatedem.contact.kinematics import relative_velocity
-from dilatedem.contact.liu2015.press import press_liu2015
+from dilatedem.contact.friction import hold
+from dilatedem.contact.laws import press
 from dilatedem.contact.search.closest import closest_points, farthest_vertex
-from dilatedem.jit import by_type, device, item
-from dilatedem.numerics.vector import accumulate, along, dot, load, norm, scale, store, sub
-from dilatedem.state.setting import ConsistentSetting, ContactModel
-
-CONSISTENT = int(ContactModel.CONSISTENT)
+from dilatedem.contact.spring import length
+from dilatedem.jit import device, item
+from dilatedem.numerics.vector import accumulate, along, dot, load, scale, store, sub
+from dilatedem.state.ledger import GAIN_LAW, LOSS_DAMPING, LOSS_FRICTION
 
 
 @device
@@ -43,9 +38,9 @@ def _meet_half_space(vertex, shapes, pairs, k, a, b, position):
 @device
 def _end_contact(pairs, k, dt):
     """No overlap, no spring, no force. What the spring still held is lost to friction."""
-    pairs.loss_friction[k] = 0.5 * pairs.shear_stiffness[k] * length(load(pairs.slip, k), pairs.wrung[k]) ** 2
-    pairs.loss_damping[k] = 0.5 * dt * pairs.damping_power[k]
-    pairs.gain_law[k] = 0.0
+    pairs.cost[k, LOSS_FRICTION] = 0.5 * pairs.shear_stiffness[k] * length(load(pairs.slip, k), pairs.wrung[k]) ** 2
+    pairs.cost[k, LOSS_DAMPING] = 0.5 * dt * pairs.damping_power[k]
+    pairs.cost[k, GAIN_LAW] = 0.0
     pairs.damping_power[k] = 0.0
     pairs.elastic_power[k] = 0.0
     pairs.overlap[k] = 0.0
@@ -57,26 +52,6 @@ def _end_contact(pairs, k, dt):
         pairs.slip[k, i] = 0.0
         pairs.force[k, i] = 0.0
         pairs.couple[k, i] = 0.0
-
-
-# both return what `press_liu2015` does, and how b moves against a: its velocity at the point of contact, its turning
-
-
-@item
-def _press_liu2015(contact, k, dt, shapes, vertex, face_normal, solids, bodies, pairs, offset, normal, pa, pb, gap, scratch):
-    at_rest = (0.0, 0.0, 0.0)  # nothing asks for it where there is no dashpot beside the spring
-    return (
-        press_liu2015(k, dt, shapes, vertex, face_normal, solids, bodies, pairs, contact, offset, normal, pa, pb, gap, scratch),
-        at_rest, at_rest,
-    )  # fmt: skip
-
-
-@item
-def _press_consistent(contact, k, dt, shapes, vertex, face_normal, solids, bodies, pairs, offset, normal, pa, pb, gap, scratch):
-    return press_consistent(k, shapes, vertex, face_normal, solids, bodies, pairs, contact, offset, normal, pa, pb, gap, scratch)
-
-
-_press = by_type(_press_liu2015, {ConsistentSetting: _press_consistent})
 
 
 @item
@@ -100,72 +75,33 @@ def collide(k, dt, shapes, vertex, face_normal, solids, bodies, pairs, contact, 
         if pairs.overlap[k] > 0.0:
             _end_contact(pairs, k, dt)
         return
-    pressed, sliding, turning = _press(
-        contact, k, dt, shapes, vertex, face_normal, solids, bodies, pairs, offset, normal, pa, pb, gap, scratch
-    )
-    mode, size, overlap, point, direction, normal_force, elastic_power, damping_power, shear_stiffness, dashpot = pressed[:10]
-    stored, gain = pressed[10], pressed[11]
-    arm = sub(point, offset)
+    pressed = press(contact, k, dt, shapes, vertex, face_normal, solids, bodies, pairs, offset, normal, pa, pb, gap, scratch)
+    arm = sub(pressed.point, offset)
+    held = hold(contact, k, dt, bodies, pairs, pressed, arm)
+    _book(k, dt, pairs, pressed, held, arm)
 
-    # tangential: Eqs. (5), (6); the turning of a patch about its normal stretches the same spring, at the arm `grip`
-    before, before_turned = carried_over(load(pairs.slip, k), direction), pairs.wrung[k]
-    slid = relative_velocity(bodies.middle_velocity, bodies.middle_angular_velocity, a, b, point, arm)
-    slid = along(slid, -dot(slid, direction), direction)
-    grip, turned = pairs.grip[k], 0.0
-    if grip > 0.0:
-        spun = sub(load(bodies.middle_angular_velocity, b), load(bodies.middle_angular_velocity, a))
-        turned = grip * dot(spun, direction)
-    old_stiffness, opened = pairs.shear_stiffness[k], pairs.overlap[k] == 0.0
-    shrink, stretch = 1.0, dt
-    if contact.model == CONSISTENT and not opened:
-        shrink, stretch = rescaled(old_stiffness, shear_stiffness)
-        stretch *= dt
-    slip, wrung, slipped = slide(
-        scale(shrink, before), shrink * before_turned, scale(stretch, slid), stretch * turned, shear_stiffness,
-        contact.friction * normal_force,
-    )  # fmt: skip
-    force = along(scale(normal_force, direction), -shear_stiffness, slip)
-    torsion = shear_stiffness * wrung
-    if dashpot > 0.0:
-        dashpot *= sqrt(contact.stiffness_ratio)
-        sliding = along(sliding, -dot(sliding, direction), direction)
-        turned_now = grip * dot(turning, direction)
-        share = viscous_share(slip, wrung, sliding, turned_now, shear_stiffness, dashpot, contact.friction * normal_force)
-        force = along(force, -share * dashpot, sliding)
-        torsion += share * dashpot * turned_now
-        damping_power += share * dashpot * (dot(sliding, sliding) + turned_now * turned_now)
 
-    # what the step cost, as trapezoids in time: the kinetic energy of the Verlet steps changes by these, up to dt^2/(4 m) |dF|^2
-    if contact.model == CONSISTENT:
-        # what the spring took up on the way, less what it has now
-        taken = old_stiffness * (dot(before, slid) + before_turned * turned)
-        taken += shear_stiffness * (dot(slip, slid) + wrung * turned)
-        kept = shear_stiffness * (dot(slip, slip) + wrung * wrung)
-        kept -= old_stiffness * (dot(before, before) + before_turned * before_turned)
-        rubbed = 0.5 * (dt * taken - kept)
-    else:
-        held = shear_stiffness * norm(slip)
-        held_before = held
-        if not opened:
-            gain += 0.5 * (shear_stiffness - old_stiffness) * dot(before, slip)
-            held_before = old_stiffness * norm(before)
-        rubbed = 0.5 * (held + held_before) * slipped
-    pairs.gain_law[k] = gain
-    pairs.loss_damping[k] = 0.5 * dt * (damping_power + pairs.damping_power[k])
-    pairs.loss_friction[k] = rubbed
+@item
+def _book(k, dt, pairs, pressed, held, arm):
+    """Write what was found to the row of pair k.
 
-    pairs.damping_power[k] = damping_power
-    pairs.elastic_power[k] = elastic_power
-    pairs.overlap[k] = overlap
-    pairs.mode[k] = mode
-    pairs.stored[k] = stored
-    pairs.shear_stiffness[k] = shear_stiffness
-    pairs.normal_force[k] = normal_force
-    pairs.size[k] = size
-    pairs.wrung[k] = wrung
-    if torsion != 0.0:
-        accumulate(pairs.couple, k, scale(-torsion * grip, direction))
-    store(pairs.slip, k, slip)
-    store(pairs.force, k, force)
-    store(pairs.point, k, point)
+    What the step cost, as trapezoids in time: the kinetic energy of the Verlet steps changes by these, up to dt^2/(4 m) |dF|^2.
+    """
+    pairs.cost[k, LOSS_DAMPING] = 0.5 * dt * (held.damping_power + pairs.damping_power[k])
+    pairs.cost[k, LOSS_FRICTION] = held.lost
+    pairs.cost[k, GAIN_LAW] = pressed.gain + held.made
+    pairs.damping_power[k] = held.damping_power
+    pairs.elastic_power[k] = pressed.elastic_power
+    pairs.overlap[k] = pressed.overlap
+    pairs.mode[k] = pressed.mode
+    pairs.stored[k] = pressed.stored
+    pairs.shear_stiffness[k] = pressed.shear_stiffness
+    pairs.normal_force[k] = pressed.normal_force
+    pairs.size[k] = pressed.size
+    pairs.wrung[k] = held.wrung
+    if held.torsion != 0.0:
+        accumulate(pairs.couple, k, scale(-held.torsion * pairs.grip[k], pressed.direction))
+    store(pairs.slip, k, held.slip)
+    store(pairs.force, k, held.force)
+    store(pairs.point, k, pressed.point)
     store(pairs.arm, k, arm)

@@ -1,73 +1,60 @@
-"""Friction as a spring in the tangent plane that slips at Coulomb's limit (Liu 2015, Eqs. (5) and (6), made incremental).
-
-The paper's min(F*, sign(F*) mu F_n) is wrong for negative F*, and a scalar knows no direction in the plane: the spring is a
-vector, kept with the contact through changes of mode, turned with the normal, stretched by the sliding of each step.
-"""
+"""Friction of a contact (Liu 2015, Eqs. (5) and (6), made incremental): its spring moved on by a step, and what that cost."""
 
 from math import sqrt
+from typing import NamedTuple
 
-from dilatedem.jit import device
-from dilatedem.numerics.vector import add, along, dot, scale
-
-
-@device
-def carried_over(slip, normal):
-    """The spring vector of the last step in today's tangent plane, its length kept."""
-    before = dot(slip, slip)
-    if before == 0.0:
-        return slip
-    flat = along(slip, -dot(slip, normal), normal)
-    after = dot(flat, flat)
-    if after == 0.0:
-        return flat
-    return scale(sqrt(before / after), flat)
+from dilatedem.contact.kinematics import relative_velocity
+from dilatedem.contact.laws import carry, rubbed
+from dilatedem.contact.spring import carried_over, slide, viscous_share
+from dilatedem.jit import item
+from dilatedem.numerics.vector import along, dot, load, scale, sub
 
 
-@device
-def length(slip, turned):
-    """Elongation of the spring: of its vector in the tangent plane, and of the turning about the normal at the arm of the patch."""
-    return sqrt(dot(slip, slip) + turned * turned)
+class Held(NamedTuple):
+    """What friction does to a contact, and what it cost in the last step."""
+
+    slip: tuple  # m, elongation of the spring in the tangent plane
+    wrung: float  # m, the same of turning about the normal, at the arm `grip`
+    force: tuple  # N, on b, the normal force with it
+    torsion: float  # N, against turning, at the arm `grip`
+    damping_power: float  # W that damping takes up, that of the normal part with it
+    lost: float  # J
+    made: float  # J that the law made by changing the spring
 
 
-@device
-def slide(slip, turned, sliding, turning, stiffness, limit):
-    """Spring after the displacement `sliding` and the turning `turning` [m], no stronger than `limit` [N]; how far it slipped [m].
+@item
+def hold(contact, k, dt, bodies, pairs, pressed, arm):
+    """Friction of contact k, pressed as `Pressed` says, as `Held`; arm: from the centroid of b to the point [m].
 
-    Sliding and turning share the limit: what a patch needs to hold a moment it cannot use against sliding.
+    The turning of a patch about its normal stretches the same spring, at the arm `grip`.
     """
-    stretched, wrung = add(slip, sliding), turned + turning
-    whole = length(stretched, wrung)
-    if stiffness * whole <= limit:
-        return stretched, wrung, 0.0
-    held = limit / stiffness
-    return scale(held / whole, stretched), held / whole * wrung, whole - held
-
-
-@device
-def rescaled(old, new):
-    """What is left of the spring's elongation when its stiffness has changed from `old` to `new` [N/m] in a step, and what part of
-    the step's displacement still stretches it.
-
-    A stiffer spring keeps its force, or it would have energy it was never given: its elongation shrinks, and its force rises by
-    the displacement times the mean stiffness of the step. A softer one keeps its elongation. After Mindlin and Deresiewicz (1953).
-    """
-    if new <= old or old == 0.0:
-        return 1.0, 1.0
-    return old / new, 0.5 * (1.0 + old / new)
-
-
-@device
-def viscous_share(slip, turned, sliding, turning, stiffness, dashpot, limit):
-    """The largest share, 0..1, of a dashpot's force that spring and dashpot together may have within `limit` [N].
-
-    slip, turned: elongation of the spring [m], itself within the limit; sliding, turning: its rate [m/s].
-    """
-    # |f + s g| = limit, f the spring's force, g the dashpot's
-    gg = dashpot * dashpot * (dot(sliding, sliding) + turning * turning)
-    if gg == 0.0:
-        return 1.0
-    fg = stiffness * dashpot * (dot(slip, sliding) + turned * turning)
-    room = limit * limit - stiffness * stiffness * (dot(slip, slip) + turned * turned)
-    if gg + 2.0 * fg <= room:  # all of it
-        return 1.0
-    return min(1.0, (sqrt(fg * fg + gg * max(room, 0.0)) - fg) / gg)
+    a, b, direction, stiffness = pairs.a[k], pairs.b[k], pressed.direction, pressed.shear_stiffness
+    limit, grip = contact.friction * pressed.normal_force, pairs.grip[k]
+    before, before_turned = carried_over(load(pairs.slip, k), direction), pairs.wrung[k]
+    slid = relative_velocity(bodies.middle_velocity, bodies.middle_angular_velocity, a, b, pressed.point, arm)
+    slid, turned = along(slid, -dot(slid, direction), direction), 0.0
+    if grip > 0.0:
+        spun = sub(load(bodies.middle_angular_velocity, b), load(bodies.middle_angular_velocity, a))
+        turned = grip * dot(spun, direction)
+    old_stiffness, opened = pairs.shear_stiffness[k], pairs.overlap[k] == 0.0
+    shrink, stretch = 1.0, dt
+    if not opened:
+        shrink, stretch = carry(contact, old_stiffness, stiffness)
+        stretch *= dt
+    slip, wrung, slipped = slide(
+        scale(shrink, before), shrink * before_turned, scale(stretch, slid), stretch * turned, stiffness, limit
+    )
+    force = along(scale(pressed.normal_force, direction), -stiffness, slip)
+    torsion, damping_power = stiffness * wrung, pressed.damping_power
+    if pressed.dashpot > 0.0:
+        dashpot = pressed.dashpot * sqrt(contact.stiffness_ratio)
+        sliding = along(pressed.velocity, -dot(pressed.velocity, direction), direction)
+        turning = grip * dot(pressed.turning, direction)
+        share = viscous_share(slip, wrung, sliding, turning, stiffness, dashpot, limit)
+        force = along(force, -share * dashpot, sliding)
+        torsion += share * dashpot * turning
+        damping_power += share * dashpot * (dot(sliding, sliding) + turning * turning)
+    lost, made = rubbed(
+        contact, dt, opened, (old_stiffness, before, before_turned), (stiffness, slip, wrung), slid, turned, slipped
+    )
+    return Held(slip, wrung, force, torsion, damping_power, lost, made)

@@ -1,9 +1,11 @@
 """What contacts cost and showed: booked pair by pair in a fixed number of parts, so that sums do not depend on the threads."""
 
-from dilatedem.contact.collide import CONSISTENT
-from dilatedem.contact.consistent.press import DEEPEST_SHARE
+from dilatedem.contact.laws import deepest
 from dilatedem.jit import device, item
+from dilatedem.state.ledger import COSTS
 
+#: of the ledger, that contacts have
+TERMS = len(COSTS)
 #: overlap, in units of the smaller dilated radius of the two, past which the run stops
 DEEPEST = 4.0
 
@@ -13,12 +15,12 @@ def book_contact(k, part, dt, structure_of, shapes, contact, pairs, tally):
     """Add what pair k cost and showed in this step to row `part` of the tally (`state.storage.Tally`)."""
     tally.work[part, 0] += 1
     tally.work[part, 1] += pairs.rounds[k]
-    tally.loss_damping[part] += pairs.loss_damping[k]
-    tally.loss_friction[part] += pairs.loss_friction[k]
-    tally.gain_law[part] += pairs.gain_law[k]
+    for term in range(TERMS):
+        tally.cost[part, term] += pairs.cost[k, term]
     if pairs.overlap[k] <= 0.0:
         # what the end of a contact cost is booked once
-        pairs.loss_friction[k] = pairs.loss_damping[k] = pairs.gain_law[k] = 0.0
+        for term in range(TERMS):
+            pairs.cost[k, term] = 0.0
         return
     on_structure, mode = 1 if structure_of[pairs.b[k]] >= 0 else 0, pairs.mode[k]
     tally.mode_steps[part, on_structure, mode] += 1.0
@@ -36,10 +38,9 @@ def close_tally(tally, ledger, loads, clock):
         clock.evaluations[0] += tally.work[part, 0]
         clock.rounds[0] += tally.work[part, 1]
         tally.work[part, 0] = tally.work[part, 1] = 0
-        ledger.loss_damping[0] += tally.loss_damping[part]
-        ledger.loss_friction[0] += tally.loss_friction[part]
-        ledger.gain_law[0] += tally.gain_law[part]
-        tally.loss_damping[part] = tally.loss_friction[part] = tally.gain_law[part] = 0.0
+        for term in range(TERMS):
+            ledger.cost[term] += tally.cost[part, term]
+            tally.cost[part, term] = 0.0
         for s in range(2):
             for mode in range(tally.mode_steps.shape[2]):
                 loads.mode_steps[s, mode] += tally.mode_steps[part, s, mode]
@@ -64,8 +65,6 @@ def too_deep(tally, pairs, clock):
 
 @item
 def deepest_overlap(a, b, shapes, contact):
-    """Overlap [m] past which rounded edges mean nothing any more."""
+    """Overlap [m] past which rounded edges mean nothing any more, or the law does not."""
     smaller = shapes.radius[a] if shapes.kind[b] != 0 else min(shapes.radius[a], shapes.radius[b])
-    if contact.model == CONSISTENT:
-        return min(DEEPEST * smaller, DEEPEST_SHARE * (shapes.radius[a] + shapes.radius[b]))
-    return DEEPEST * smaller
+    return min(DEEPEST * smaller, deepest(contact, shapes.radius[a] + shapes.radius[b]))

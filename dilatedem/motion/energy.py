@@ -1,10 +1,11 @@
 """The energies of an instant: with the running sums of `state.ledger.Ledger` they close the ledger of a run."""
 
-from dilatedem.contact.friction import length
+from dilatedem.contact.spring import length
 from dilatedem.jit import device
 from dilatedem.motion.integrate import kinetic_energy
 from dilatedem.numerics.rotation import rotation_matrix
 from dilatedem.numerics.vector import load
+from dilatedem.state.ledger import BUOYANCY, ELASTIC, GRAVITY, KINETIC
 from dilatedem.water.floating import submerge
 
 
@@ -17,11 +18,9 @@ def book_energies(model, bodies, pairs, workspace, ledger):
     """
     kinetic = weight = buoyancy = elastic = 0.0
     floating, solids, surroundings, hulls = model.floating, model.solids, model.surroundings, model.hulls
-    q, wet, everybody = bodies.orientation, workspace.wet, workspace.idle
-    for i in range(floating):
-        everybody[i] = i
+    q, wet = bodies.orientation, workspace.wet
     if surroundings.water:
-        submerge(everybody, 0, floating, hulls, bodies, workspace, 0)
+        submerge(workspace.everybody, 0, floating, hulls, bodies, workspace, 0)
     for i in range(floating):
         if solids.inverse_mass[i] == 0.0:
             continue
@@ -36,4 +35,5 @@ def book_energies(model, bodies, pairs, workspace, ledger):
     for k in range(pairs.count[0]):
         if pairs.overlap[k] > 0.0:
             elastic += pairs.stored[k] + 0.5 * pairs.shear_stiffness[k] * length(load(pairs.slip, k), pairs.wrung[k]) ** 2
-    ledger.kinetic[0], ledger.gravity[0], ledger.buoyancy[0], ledger.elastic[0] = kinetic, weight, buoyancy, elastic
+    stored = ledger.instant
+    stored[KINETIC], stored[GRAVITY], stored[BUOYANCY], stored[ELASTIC] = kinetic, weight, buoyancy, elastic

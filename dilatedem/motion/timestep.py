@@ -4,17 +4,15 @@ Before a run nothing touches yet, so two contacts are laid out for each body: it
 whole length), and a corner hit at a likely speed. During a run `assembled_frequency` adds up the contacts there are.
 """
 
-from math import pi, sqrt
+from math import sqrt
 
 import numpy as np
 
-from dilatedem.contact.consistent.line import line_compliance
 from dilatedem.contact.kinematics import mobility
-from dilatedem.contact.liu2015.press import BETA
+from dilatedem.contact.laws import law_of
 from dilatedem.jit import device
 from dilatedem.numerics.blocks import take
 from dilatedem.numerics.vector import load
-from dilatedem.state.setting import ContactModel
 
 #: impact speed, as a share of sqrt(gravity x reach), for which contacts are laid out where nothing moves yet
 SETTLING_SPEED = 0.5
@@ -32,7 +30,7 @@ def critical_step(model, bodies) -> float:
     coefficient. Friction springs, crossing edges and contacts that act together are left to the share of it that is taken.
     Infinite without bodies.
     """
-    shapes, solids, damping = model.shapes, model.solids, model.contact.damping
+    shapes, solids, damping, law = model.shapes, model.solids, model.contact.damping, law_of(model.contact)
     free = np.flatnonzero(solids.inverse_mass > 0.0)
     if len(free) == 0:
         return np.inf
@@ -46,14 +44,9 @@ def critical_step(model, bodies) -> float:
     # against a body like itself (both give way), and against what does not move
     for moving, together in ((2.0, 2.0 * compliance), (1.0, compliance + stiffest_held)):
         modulus = 1.0 / together
-        face = moving * mobility * (2.0 * modulus * BETA * np.sqrt(area / pi))
-        if face.max() > 0.0:
-            shortest = min(shortest, 2.0 * shrink / sqrt(face.max()))
-        if model.contact.model == ContactModel.CONSISTENT:
-            for k in np.flatnonzero(area == 0.0):
-                line = _line_stiffness(shapes, free[k], modulus[k], moving * inverse_mass[k], speed)
-                if line > 0.0:
-                    shortest = min(shortest, 2.0 * shrink / sqrt(moving * mobility[k] * line))
+        resting = moving * mobility * law.resting_stiffness(shapes, free, area, modulus, moving * inverse_mass, speed)
+        if resting.max() > 0.0:
+            shortest = min(shortest, 2.0 * shrink / sqrt(resting.max()))
         hertz = moving * inverse_mass * (4.0 / 3.0 * modulus * np.sqrt(radius))
         if hertz.max() > 0.0:
             depth = (1.25 * speed**2 / hertz.max()) ** 0.4
@@ -103,27 +96,14 @@ def _rows_by_length(start, flat):
             yield some, take(flat, start[some], k)
 
 
-def _line_stiffness(shapes, i: int, modulus: float, inverse_mass: float, speed: float) -> float:
-    """Tangent stiffness [N/m] of a capsule that lies along a flat, pressed in by an impact at `speed`; 0 for a sphere."""
-    ends = shapes.vertex[shapes.vertex_start[i] : shapes.vertex_start[i + 1]]
-    length = float(np.linalg.norm(ends[-1] - ends[0]))
-    if length == 0.0 or modulus == 0.0:
-        return 0.0
-    stiffness = modulus * length
-    for _ in range(4):
-        overlap = speed / sqrt(inverse_mass * stiffness)
-        compliance, _ = line_compliance.py_func(length**2 / (shapes.radius[i] * overlap))
-        stiffness = pi * modulus * length / (compliance - 0.5)
-    return stiffness
-
-
 @device
-def assembled_frequency(solids, bodies, pairs, stiffness):
+def assembled_frequency(solids, bodies, pairs, workspace):
     """Upper bound of the highest angular frequency [rad/s] of the normal springs that are open now (friction springs left out).
 
-    stiffness (n,): workspace. A body's contacts add up to s = sum c k_tan/m', c = 2, or 1 where the other side is held; no mode is
+    A body's contacts add up to s = sum c k_tan/m', c = 2, or 1 where the other side is held; no mode is
     faster than sqrt(max s), as (u_a x_a + u_b x_b)^2 <= 2 (u_a x_a)^2 + 2 (u_b x_b)^2 for each contact.
     """
+    stiffness = workspace.stiffness
     for i in range(len(stiffness)):
         stiffness[i] = 0.0
     for k in range(pairs.count[0]):

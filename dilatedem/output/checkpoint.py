@@ -18,7 +18,7 @@ import numpy as np
 from dilatedem.errors import CaseError
 from dilatedem.output.atomic import replacing
 
-FORMAT = 2  # raised when the layout of the file changes
+FORMAT = 3  # raised when the layout of the file changes
 ALIGNMENT = 8  # bytes; every array begins at a multiple
 PART_BYTES = 1 << 20  # so much is put together in memory before it is written
 

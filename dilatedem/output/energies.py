@@ -7,10 +7,7 @@ import numpy as np
 from dilatedem.output import folder
 from dilatedem.output.observer import TableObserver
 from dilatedem.output.tables import ENERGY_COLUMNS
-
-#: energy terms that are stored (their change counts), and those that came in (+) or went out (-)
-STORED = ("kinetic", "gravity", "buoyancy", "elastic")
-FLOWS = {"work_drag": 1.0, "work_structure": 1.0, "gain_law": 1.0, "loss_damping": -1.0, "loss_friction": -1.0}
+from dilatedem.state.ledger import STORED, TERMS
 
 
 @dataclass
@@ -30,7 +27,10 @@ def work_up(noted: list[list[float]], names: list[str], totals: Totals) -> np.nd
     if not noted:
         return np.zeros((0, len(ENERGY_COLUMNS)))
     values = dict(zip(("time_s", "step_ratio", *names), np.array(noted).T, strict=True))
-    total = sum(values[name] for name in STORED) - sum(sign * values[name] for name, sign in FLOWS.items())
+    total = sum(values[term.name] for term in TERMS if term.sign == STORED)
+    # a sum in another order would be another number: first what came in, then what went out
+    flows = sorted((term for term in TERMS if term.sign != STORED), key=lambda term: -term.sign)
+    total = total - sum(term.sign * values[term.name] for term in flows)
     if totals.initial_energy is None:
         totals.initial_energy = float(total[0])
     values["residual"] = total - totals.initial_energy

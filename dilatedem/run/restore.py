@@ -8,7 +8,7 @@ from dilatedem.case.schema import Case
 from dilatedem.errors import CaseError
 from dilatedem.output import checkpoint, folder
 from dilatedem.run.simulation import Simulation
-from dilatedem.state.pairs import grown
+from dilatedem.state.pairs import unpacked
 
 
 def restored(case: Case, out: Path) -> Simulation:
@@ -36,7 +36,7 @@ def load_checkpoint(out: Path, case: Case, simulation: Simulation) -> dict:
     state, room = simulation.state, len(simulation.state.pairs.a)
     for name, current in state.groups().items():
         setattr(state, name, checkpoint.restore(type(current), groups[name], where=str(file)))
-    state.pairs = grown(state.pairs, max(room, len(state.pairs.a)))
+    state.pairs = unpacked(state.pairs, max(room, len(state.pairs.a)))
     if state.watch:
         state.watch.restore(groups, meta["watch"], where=str(file))
     simulation.make_room()

@@ -15,7 +15,7 @@ from dilatedem.scene.arrays import build_model, initial_bodies
 from dilatedem.scene.place import Scene, compose
 from dilatedem.state.bodies import Bodies, Ids
 from dilatedem.state.clock import Clock, Status, clock_at_start
-from dilatedem.state.ledger import Ledger, empty_ledger
+from dilatedem.state.ledger import Ledger, empty_ledger, energies
 from dilatedem.state.loads import Loads, Windows, empty_loads, no_windows
 from dilatedem.state.model import Model
 from dilatedem.state.pairs import Pairs, empty_pairs, grown, in_use
@@ -137,10 +137,8 @@ class Simulation:
 
     def energies(self) -> dict[str, float]:
         """The ledger as `advance` left it, in J: the columns of energy.csv (without time and residual)."""
-        ledger = {name: float(value[0]) for name, value in self.state.ledger._asdict().items()}
-        ledger["work_drag"] = float(self.state.bodies.work_drag.sum())
-        ledger["work_structure"] = 0.0  # structures do not move
-        return ledger
+        structures = 0.0  # they do not move
+        return energies(self.state.ledger, float(self.state.bodies.work_drag.sum()), structures)
 
     def assembled_step_ratio(self) -> float:
         """dt over the critical step of the contacts that were open when `advance` came back (an upper bound)."""

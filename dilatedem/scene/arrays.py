@@ -11,7 +11,7 @@ from dilatedem.scene.place import Scene, periodic_axes
 from dilatedem.state.bodies import Bodies, Solids, bodies_at_rest
 from dilatedem.state.charts import Along, Charts
 from dilatedem.state.model import Model
-from dilatedem.state.setting import ConsistentSetting, ContactModel, ContactSetting, Surroundings
+from dilatedem.state.setting import CONTACT_SETTINGS, ContactSetting, Surroundings
 from dilatedem.structures.kind import Part, perimeter
 
 #: a load map's heights reach from so many ice thicknesses below the water level to so many above
@@ -55,9 +55,7 @@ def _numbers(scene: Scene) -> np.ndarray:
 
 def _contact_setting(case: Case) -> ContactSetting:
     contact = case.contact
-    model = ContactModel[contact.model.upper()]
-    setting = ConsistentSetting if model == ContactModel.CONSISTENT else ContactSetting
-    return setting(int(model), contact.damping, contact.friction, contact.stiffness_ratio)
+    return CONTACT_SETTINGS[contact.model](contact.damping, contact.friction, contact.stiffness_ratio)
 
 
 def _require_one_image(case: Case, reach: np.ndarray, cores: list[Part], periodic: tuple[bool, bool]) -> None:

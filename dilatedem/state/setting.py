@@ -1,29 +1,26 @@
 """Numbers of a case that kernels need: contact parameters, water, domain. Constant during a run."""
 
-from enum import IntEnum
 from typing import NamedTuple
 
 
-class ContactModel(IntEnum):
-    """Which laws hold; `contact.collide` chooses by it."""
-
-    LIU2015 = 0
-    CONSISTENT = 1
-
-
 class ContactSetting(NamedTuple):
-    """Parameters of contact for `liu2015`; for `consistent` there is a class of its own, so that only one model is compiled."""
+    """Parameters of contact. Each model has a class of its own, by which `contact.laws` chooses: only one model is compiled."""
 
-    model: int  # ContactModel
     damping: float  # zeta_n of Liu 2015, Eq. (4)
     friction: float  # mu of Eq. (6)
     stiffness_ratio: float  # r_ns: tangential over normal stiffness
 
 
-class ConsistentSetting(ContactSetting):
-    """The same for `consistent`."""
-
+class Liu2015Setting(ContactSetting):
     __slots__ = ()
+
+
+class ConsistentSetting(ContactSetting):
+    __slots__ = ()
+
+
+#: by the name of the model in a case
+CONTACT_SETTINGS = {"liu2015": Liu2015Setting, "consistent": ConsistentSetting}
 
 
 class Surroundings(NamedTuple):

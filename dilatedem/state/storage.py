@@ -4,6 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from dilatedem.state.ledger import COSTS
 from dilatedem.state.modes import MODE_COUNT
 
 #: parts of a `Tally`, and the most threads that can share the evaluation of pairs
@@ -30,8 +31,10 @@ class Workspace(NamedTuple):
     busy: np.ndarray  # (n,) bodies of near pairs, in order
     idle: np.ndarray  # (n,) all others, in order
     is_busy: np.ndarray  # (n,)
+    everybody: np.ndarray  # (n,) all bodies, in order
     room: np.ndarray  # (n,) m, how far a body is taken to get at most
     horizon: np.ndarray  # (n,) m, path at which a body has got farther than it was taken to
+    stiffness: np.ndarray  # (n,) 1/s2, of the contacts of a body over what it opposes to them
     instant: np.ndarray  # (1,) counts the instants at which pairs were evaluated
     turned: np.ndarray  # (threads, n) instant to which a thread has turned a body's shape; negative: asked for it
     fault: np.ndarray  # (threads,) body that moves too fast, -1 = none
@@ -49,9 +52,7 @@ class Tally(NamedTuple):
     """
 
     work: np.ndarray  # (PARTS, 2) pairs evaluated, rounds of their distance searches
-    loss_damping: np.ndarray  # (PARTS,) J
-    loss_friction: np.ndarray  # (PARTS,) J
-    gain_law: np.ndarray  # (PARTS,) J
+    cost: np.ndarray  # (PARTS, COSTS) J of each of `state.ledger.COSTS`
     mode_steps: np.ndarray  # (PARTS, 2, MODE_COUNT) and so on as in `Loads`
     mode_impulse: np.ndarray
     mode_force: np.ndarray
@@ -76,8 +77,10 @@ def make_workspace(shapes, hulls, capacity: int, threads: int) -> Workspace:
         busy=np.zeros(bodies, np.int64),
         idle=np.zeros(bodies, np.int64),
         is_busy=np.zeros(bodies, np.bool_),
+        everybody=np.arange(bodies),
         room=np.zeros(bodies),
         horizon=np.zeros(bodies),
+        stiffness=np.zeros(bodies),
         instant=np.zeros(1, np.int64),
         turned=np.zeros((threads, bodies), np.int64),
         fault=np.full(threads, -1, np.int64),
@@ -91,6 +94,4 @@ def make_workspace(shapes, hulls, capacity: int, threads: int) -> Workspace:
 
 def empty_tally() -> Tally:
     per_mode = (np.zeros((PARTS, 2, MODE_COUNT)) for _ in range(4))
-    return Tally(
-        np.zeros((PARTS, 2), np.int64), np.zeros(PARTS), np.zeros(PARTS), np.zeros(PARTS), *per_mode, np.full(PARTS, -1, np.int64)
-    )
+    return Tally(np.zeros((PARTS, 2), np.int64), np.zeros((PARTS, len(COSTS))), *per_mode, np.full(PARTS, -1, np.int64))

@@ -52,5 +52,5 @@ def advance(team, model, bodies, pairs, spare, cells, workspace, tally, ledger, 
     close_tally(tally, ledger, loads, clock)
     complete_spins(model, bodies)
     book_energies(model, bodies, pairs, workspace, ledger)
-    clock.frequency[0] = assembled_frequency(model.solids, bodies, pairs, workspace.room)
+    clock.frequency[0] = assembled_frequency(model.solids, bodies, pairs, workspace)
     return status

@@ -157,7 +157,7 @@ def _fetch(block, w, last, shapes, bodies, pairs, workspace):
         return
     k, instant, turned = workspace.awake[w], workspace.instant[0], workspace.turned
     for line in range(PAIR_LINES):
-        prefetch(pairs.rounds, k, line)
+        prefetch(pairs.row, k, line)
     for body in (pairs.a[k], pairs.b[k]):
         if abs(turned[block, body]) != instant:
             turned[block, body] = -instant  # asked for, not yet turned

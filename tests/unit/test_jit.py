@@ -42,7 +42,7 @@ def test_the_instruction_is_in_the_machine_code():
 
 def test_a_pairs_row_is_as_many_lines_as_are_fetched():
     pairs = empty_pairs(3)
-    assert pairs.rounds.strides[0] == PAIR_LINES * CACHE_LINE and pairs.rounds.ctypes.data % CACHE_LINE == 0
+    assert pairs.row.strides[0] == PAIR_LINES * CACHE_LINE and pairs.row.ctypes.data % CACHE_LINE == 0
 
 
 @device

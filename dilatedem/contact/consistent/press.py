@@ -4,6 +4,7 @@ from math import sqrt
 
 from dilatedem.contact.consistent.join import pose_energy
 from dilatedem.contact.kinematics import mobility, relative_velocity
+from dilatedem.contact.pressed import Pressed
 from dilatedem.jit import device, item
 from dilatedem.numerics.vector import along, cross, dot, load, scale, store, sub
 
@@ -34,9 +35,9 @@ def _rocking_couple(dashpot, force, spread, normal, turning):
 
 
 @item
-def press_consistent(k, shapes, vertex, face_normal, solids, bodies, pairs, contact, offset, normal, pa, pb, gap, scratch):
-    """The normal part of contact k; arguments and results as of `liu2015.press_liu2015`, and the velocity of b against a at the
-    point of contact and its turning against a [m/s, rad/s]. Writes the pair's couple and its grip.
+def press_consistent(contact, k, dt, shapes, vertex, face_normal, solids, bodies, pairs, offset, normal, pa, pb, gap, scratch):
+    """The normal part of contact k, as `Pressed`; arguments as of `liu2015.press_liu2015`. Writes the pair's couple, its grip and
+    its tangent.
 
     Damping multiplies the elastic wrench by 1 + c (dW/dt)/F^2, never below 0, with c = xi sqrt(2 m*/W) F [N s/m]. For any law
     F = K overlap^p that is c sqrt(m* K) overlap^((p-1)/2) times the approach speed with the constant sqrt(2 (p+1)) xi:
@@ -60,7 +61,7 @@ def press_consistent(k, shapes, vertex, face_normal, solids, bodies, pairs, cont
     if not (energy > 0.0 and elastic > 0.0):
         store(pairs.couple, k, none)
         pairs.grip[k] = 0.0
-        return (mode, size, -gap, middle, normal, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0), none, none
+        return Pressed(mode, size, -gap, middle, normal, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, none, none)
     unit = 1.0 / square
     direction = scale(unit * elastic, force)  # the division need not wait for the root
     point, couple = pressure_centre(force, unit, moment, middle)
@@ -82,7 +83,8 @@ def press_consistent(k, shapes, vertex, face_normal, solids, bodies, pairs, cont
     stiffness = square / energy
     pairs.tangent[k] = TANGENT * stiffness
     shear_stiffness = 0.5 * contact.stiffness_ratio * stiffness
-    pressed = (
-        mode, size, -gap, point, direction, share * elastic, elastic_power, damping_power, shear_stiffness, dashpot, energy, 0.0,
+    return Pressed(
+        mode=mode, size=size, overlap=-gap, point=point, direction=direction, normal_force=share * elastic,
+        elastic_power=elastic_power, damping_power=damping_power, shear_stiffness=shear_stiffness, dashpot=dashpot,
+        stored=energy, gain=0.0, velocity=velocity, turning=turning,
     )  # fmt: skip
-    return pressed, velocity, turning

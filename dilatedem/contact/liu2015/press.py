@@ -17,6 +17,7 @@ from dilatedem.contact.liu2015.patch import (
     VERTEX_VERTEX,
     contact_patch,
 )
+from dilatedem.contact.pressed import Pressed
 from dilatedem.jit import device, item
 from dilatedem.numerics.vector import dot, sub
 
@@ -98,13 +99,10 @@ def _law_gain(pairs, k, dt, mode, overlap, stiffness, exponent, elastic, elastic
 
 
 @item
-def press_liu2015(k, dt, shapes, vertex, face_normal, solids, bodies, pairs, contact, offset, normal, pa, pb, gap, scratch):
-    """The normal part of contact k by the paper's laws.
+def press_liu2015(contact, k, dt, shapes, vertex, face_normal, solids, bodies, pairs, offset, normal, pa, pb, gap, scratch):
+    """The normal part of contact k by the paper's laws, as `Pressed`. Writes the memory of its law, and the tangent.
 
     Arguments as in `collide`; offset, normal, pa, pb: centroid of b, unit normal, witness points, from a's centroid; gap < 0 [m].
-    Returns mode, size [m or m2], overlap [m], point of application and direction of the normal force on b, its size
-    [N], powers that the elastic part and the damping take up [W], shear stiffness [N/m], dashpot beside that spring [N s/m], energy
-    stored [J], energy that the law made in the last step [J].
     """
     a, b = pairs.a[k], pairs.b[k]
     mode, a_lower, point, overlap, size, sine = contact_patch(
@@ -131,7 +129,9 @@ def press_liu2015(k, dt, shapes, vertex, face_normal, solids, bodies, pairs, con
     pairs.stiffness[k] = stiffness
     pairs.exponent[k] = exponent
     pairs.tangent[k] = exponent * stiffness * power(overlap, exponent - 1.0)
-    stored = stored_energy(stiffness, exponent, overlap)
-    return (
-        mode, size, overlap, point, normal, normal_force, elastic_power, damping_power, shear_stiffness, 0.0, stored, gain,
+    at_rest = (0.0, 0.0, 0.0)
+    return Pressed(
+        mode=mode, size=size, overlap=overlap, point=point, direction=normal, normal_force=normal_force,
+        elastic_power=elastic_power, damping_power=damping_power, shear_stiffness=shear_stiffness, dashpot=0.0,
+        stored=stored_energy(stiffness, exponent, overlap), gain=gain, velocity=at_rest, turning=at_rest,
     )  # fmt: skip

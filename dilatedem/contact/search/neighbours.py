@@ -9,6 +9,7 @@ from math import sqrt
 
 from dilatedem.jit import device
 from dilatedem.numerics.vector import dot, load, sub
+from dilatedem.state.pairs import KEPT, ROW
 
 #: distance at which pairs enter the list, in units of the largest reach of a floating body. Larger: fewer rebuilds, longer list
 SKIN = 0.25
@@ -170,37 +171,12 @@ def _exchange(pairs, spare, found):
 
 @device
 def _copy(source, i, target, k):
-    """Memory of pair i (-1: none) to pair k; every copy is looked at afresh in the next step."""
+    """Row of pair i (-1: none) to pair k, which is looked at afresh in the next step; what the last one cost stays behind."""
+    for c in range(KEPT):
+        target.row[k, c] = source.row[i, c] if i >= 0 else 0
+    for c in range(KEPT, ROW):
+        target.row[k, c] = 0
     target.wake[k] = -1.0
-    new = i < 0
-    target.rounds[k] = 0
-    target.corners[k] = 0 if new else source.corners[i]
-    for c in range(4):
-        target.corner_a[k, c] = 0 if new else source.corner_a[i, c]
-        target.corner_b[k, c] = 0 if new else source.corner_b[i, c]
-    for c in range(3):
-        target.normal[k, c] = 0.0 if new else source.normal[i, c]
-        target.slip[k, c] = 0.0 if new else source.slip[i, c]
-        target.force[k, c] = 0.0 if new else source.force[i, c]
-        target.point[k, c] = 0.0 if new else source.point[i, c]
-        target.arm[k, c] = 0.0 if new else source.arm[i, c]
-        target.couple[k, c] = 0.0 if new else source.couple[i, c]
-    target.overlap[k] = 0.0 if new else source.overlap[i]
-    target.mode[k] = 0 if new else source.mode[i]
-    target.stiffness[k] = 0.0 if new else source.stiffness[i]
-    target.exponent[k] = 0.0 if new else source.exponent[i]
-    target.wrung[k] = 0.0 if new else source.wrung[i]
-    target.grip[k] = 0.0 if new else source.grip[i]
-    target.stored[k] = 0.0 if new else source.stored[i]
-    target.tangent[k] = 0.0 if new else source.tangent[i]
-    target.shear_stiffness[k] = 0.0 if new else source.shear_stiffness[i]
-    target.damping_power[k] = 0.0 if new else source.damping_power[i]
-    target.elastic_power[k] = 0.0 if new else source.elastic_power[i]
-    target.normal_force[k] = 0.0 if new else source.normal_force[i]
-    target.size[k] = 0.0 if new else source.size[i]
-    target.loss_damping[k] = 0.0
-    target.loss_friction[k] = 0.0
-    target.gain_law[k] = 0.0
 
 
 @device

@@ -129,7 +129,7 @@ def test_a_file_of_another_format_is_refused_by_its_number(tmp_path):
         file.attrs["format"] = 1
         file.attrs["meta"] = "{}"
         file["clock/step"] = np.zeros(1)
-    with pytest.raises(CaseError, match="checkpoint format 1, but this version reads 2"):
+    with pytest.raises(CaseError, match="checkpoint format 1, but this version reads 3"):
         checkpoint.load(path)
 
 

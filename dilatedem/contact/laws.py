@@ -1,0 +1,32 @@
+"""The laws of contact, a folder for each model, chosen by the type of the case's contact setting.
+
+A law is a module `law.py` that has
+
+MEMORY             columns of `Pairs` that this law alone writes and reads
+press              the normal part of a contact, as `Pressed`
+carry              what becomes of the spring of friction when its stiffness changes
+rubbed             what friction lost in a step, and what the law made by changing the spring
+deepest            the overlap up to which the law means something
+resting_stiffness  the stiffest contacts that bodies may rest on, for the critical time step
+
+Their arguments are those of the functions here. The first four kernels call: the choice falls while they are compiled. All laws'
+memory lies in the pair's one row (`state.pairs.COLUMNS`): it takes 6 lines of the processor's cache with the memory of any one law
+and with that of both, and rows of one layout need one kind of list, of copy and of checkpoint.
+"""
+
+from dilatedem.contact.consistent import law as consistent
+from dilatedem.contact.liu2015 import law as liu2015
+from dilatedem.jit import by_type
+from dilatedem.state.setting import ConsistentSetting, Liu2015Setting
+
+LAWS = {Liu2015Setting: liu2015, ConsistentSetting: consistent}
+
+press = by_type(liu2015.press, {ConsistentSetting: consistent.press})
+carry = by_type(liu2015.carry, {ConsistentSetting: consistent.carry})
+rubbed = by_type(liu2015.rubbed, {ConsistentSetting: consistent.rubbed})
+deepest = by_type(liu2015.deepest, {ConsistentSetting: consistent.deepest})
+
+
+def law_of(contact):
+    """The law of a contact setting, a module: for Python. Kernels call the functions above."""
+    return LAWS[type(contact)]
