@@ -111,7 +111,8 @@ def tiled(tile: Simulation, along_x: int, along_y: int, *, threads: int = 1) -> 
     bodies: Bodies = repeated_bodies(tile.state.bodies, floating, moves)
     loads = empty_loads(len(model.charts.center))
     pairs = empty_pairs(PAIRS_PER_BODY * len(bodies.path) + 64)
-    state = State(Ids(np.arange(model.floating)), bodies, pairs, empty_ledger(), loads, clock_at_start())
+    ledger = empty_ledger(len(tile.state.ledger.departed_work))
+    state = State(Ids(np.arange(model.floating)), bodies, pairs, ledger, loads, clock_at_start())
     return replace(tile, model=model, state=state, threads=threads)
 
 

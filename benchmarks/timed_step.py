@@ -88,7 +88,7 @@ def timed_advance(
             t = _lap(booked, WAKE, timespec, t)
             collide_pairs(team, awake, dt, model, bodies, pairs, workspace, tally)
             t = _lap(booked, COLLIDE, timespec, t)
-            load_and_kick(team, workspace.busy, busy, awake, dt, model, bodies, pairs, workspace)
+            load_and_kick(team, workspace.busy, busy, awake, dt, clock.time[0], model, bodies, pairs, workspace)
             t = _lap(booked, FLOAT, timespec, t)
             load_structures(at_structure, dt, model.structure_of, model.charts, bodies, pairs, workspace, loads)
             record_loads(loads)
@@ -101,7 +101,7 @@ def timed_advance(
         spent = (clock.step[0] - start) * dt
         if not drift_bodies(team, workspace.idle, idle, spent, model, bodies, pairs, workspace, clock):
             status = TOO_FAST
-        load_and_kick(team, workspace.idle, idle, 0, spent, model, bodies, pairs, workspace)
+        load_and_kick(team, workspace.idle, idle, 0, spent, clock.time[0], model, bodies, pairs, workspace)
         t = _lap(booked, IDLE, timespec, t)
     close_tally(tally, ledger, loads, clock)
     complete_spins(model, bodies)

@@ -17,21 +17,21 @@ def book_energies(model, bodies, pairs, workspace, ledger):
     is the buoyancy force and moment of any convex body.
     """
     kinetic = weight = buoyancy = elastic = 0.0
-    floating, solids, surroundings, hulls = model.floating, model.solids, model.surroundings, model.hulls
+    floating, solids, setting, hulls = model.floating, model.solids, model.loads, model.hulls
     q, wet = bodies.orientation, workspace.wet
-    if surroundings.water:
+    if setting.water:
         submerge(workspace.everybody, 0, floating, hulls, bodies, workspace, 0)
     for i in range(floating):
         if solids.inverse_mass[i] == 0.0:
             continue
         kinetic += kinetic_energy(i, solids, bodies)
         z = bodies.position[i, 2]
-        weight += solids.mass[i] * surroundings.gravity * z
-        if surroundings.water:
+        weight += solids.mass[i] * setting.gravity * z
+        if setting.water:
             up = rotation_matrix(q[i, 0], q[i, 1], q[i, 2], q[i, 3])[2]
             volume, cx, cy, cz = wet[i, 0], wet[i, 1], wet[i, 2], wet[i, 3]
             height = z + up[0] * cx + up[1] * cy + up[2] * cz
-            buoyancy -= surroundings.water_density * surroundings.gravity * volume * height
+            buoyancy -= setting.water_density * setting.gravity * volume * height
     for k in range(pairs.count[0]):
         if pairs.overlap[k] > 0.0:
             elastic += pairs.stored[k] + 0.5 * pairs.shear_stiffness[k] * length(load(pairs.slip, k), pairs.wrung[k]) ** 2

@@ -56,10 +56,10 @@ def critical_step(model, bodies) -> float:
 
 def _impact_speed(model, bodies, free) -> float:
     """A speed [m/s] at which bodies may hit each other: the case's own velocities, or what gravity gives them."""
-    surroundings = model.surroundings
+    setting = model.loads
     moving = np.linalg.norm(bodies.velocity[free], axis=1).max()
-    current = np.hypot(surroundings.current_x, surroundings.current_y)
-    settling = SETTLING_SPEED * np.sqrt(surroundings.gravity * model.shapes.reach[free].max())
+    current = np.hypot(setting.current_x, setting.current_y)
+    settling = SETTLING_SPEED * np.sqrt(setting.gravity * model.shapes.reach[free].max())
     return max(2.0 * moving, current, settling, 1e-6)
 
 

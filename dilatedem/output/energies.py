@@ -6,8 +6,7 @@ import numpy as np
 
 from dilatedem.output import folder
 from dilatedem.output.observer import TableObserver
-from dilatedem.output.tables import ENERGY_COLUMNS
-from dilatedem.state.ledger import STORED, TERMS
+from dilatedem.state.ledger import LOAD, STORED, TERMS
 
 
 @dataclass
@@ -20,35 +19,38 @@ class Totals:
 
 
 def work_up(noted: list[list[float]], names: list[str], totals: Totals) -> np.ndarray:
-    """Bring energies into the totals; returns their rows of energy.csv.
+    """Bring energies into the totals; returns their rows of energy.csv: time, terms, residual.
 
     noted: time [s], dt over the critical step, and the terms called `names` [J] of each moment. A row on its own would take 20 us.
     """
     if not noted:
-        return np.zeros((0, len(ENERGY_COLUMNS)))
+        return np.zeros((0, len(names) + 2))
     values = dict(zip(("time_s", "step_ratio", *names), np.array(noted).T, strict=True))
-    total = sum(values[term.name] for term in TERMS if term.sign == STORED)
+    there = [term for term in TERMS if term.name in values]
+    total = sum(values[term.name] for term in there if term.sign == STORED)
     # a sum in another order would be another number: first what came in, then what went out
-    flows = sorted((term for term in TERMS if term.sign != STORED), key=lambda term: -term.sign)
+    flows = sorted((term for term in there if term.sign != STORED), key=lambda term: -term.sign)
     total = total - sum(term.sign * values[term.name] for term in flows)
     if totals.initial_energy is None:
         totals.initial_energy = float(total[0])
     values["residual"] = total - totals.initial_energy
     totals.largest_residual = max(totals.largest_residual, float(np.abs(values["residual"]).max()))
     totals.largest_step_ratio = max(totals.largest_step_ratio, float(values["step_ratio"].max()))
-    return np.column_stack([values[name] for name in ENERGY_COLUMNS])
+    return np.column_stack([values[name] for name in ("time_s", *names, "residual")])
 
 
 class Energies(TableObserver):
     """energy.csv: the ledger in time, and the largest residual of all its rows."""
 
-    name, file, columns = "energy", folder.ENERGY, ENERGY_COLUMNS
+    name, file = "energy", folder.ENERGY
 
     @classmethod
     def interval(cls, case) -> float:
         return case.output.energy_interval
 
     def open(self, kept: dict | None, since: int) -> None:
+        self.names = list(self.simulation.energies())
+        self.columns = ("time_s", *self.names, "residual")
         super().open(kept, since)
         self.totals = Totals(**kept["totals"]) if kept else Totals()
         self._noted: list[list[float]] = []  # time, step ratio and energies, since the last refresh
@@ -60,7 +62,7 @@ class Energies(TableObserver):
 
     def refresh(self) -> None:
         noted, self._noted = self._noted, []
-        rows = work_up(noted, list(self.simulation.energies()), self.totals)
+        rows = work_up(noted, self.names, self.totals)
         self.put(lambda table: table.append(rows))
 
     def kept(self) -> dict:
@@ -68,7 +70,8 @@ class Energies(TableObserver):
 
     def summary(self) -> dict:
         terms = self.simulation.energies() if self.simulation.state.clock.step[0] else {}
-        work, residual = abs(terms.get("work_drag", 0.0)), self.totals.largest_residual
+        works, residual = [term.name for term in TERMS if term.owner == LOAD], self.totals.largest_residual
+        work = abs(sum(terms.get(name, 0.0) for name in works))
         return {
             "dt_over_critical_of_open_contacts": self.totals.largest_step_ratio,
             "energy": {f"{name}_J": value for name, value in terms.items()}

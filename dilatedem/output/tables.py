@@ -10,13 +10,11 @@ from pathlib import Path
 import numpy as np
 
 from dilatedem.errors import CaseError
-from dilatedem.state.ledger import NAMES
 
 FORCES_COLUMNS = (
     "time_s", "structure", "fx_N", "fy_N", "fz_N", "mx_Nm", "my_Nm", "mz_Nm",
     "fx_min_N", "fx_max_N", "fy_min_N", "fy_max_N", "fh_max_N", "contacts",
 )  # fmt: skip
-ENERGY_COLUMNS = ("time_s", *NAMES, "residual")
 BODIES_COLUMNS = (
     "time_s", "body", "x_m", "y_m", "z_m", "qw", "qx", "qy", "qz", "vx_m_s", "vy_m_s", "vz_m_s",
     "wx_rad_s", "wy_rad_s", "wz_rad_s",

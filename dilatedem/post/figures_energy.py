@@ -10,6 +10,7 @@ from dilatedem.post.canvas import (
     GREEN,
     ORANGE,
     PURPLE,
+    SERIES,
     SKY,
     VERMILION,
     Drawing,
@@ -37,7 +38,9 @@ def energy_figure(energy: Table) -> Drawing:
     """Terms of energy.csv since the start (above) and the residual of the ledger (below)."""
     time = energy["time_s"]
     known = [term for term in TERMS if present(energy, term[1])]
-    terms = [(label, energy_change(energy, names), *look) for label, names, *look in known]
+    shown = {"time_s", "residual", *(name for term in known for name in term[1])}
+    further = [(name.replace("_", " "), (name,), SERIES[n % len(SERIES)], "-.") for n, name in enumerate(sorted(set(energy) - shown))]
+    terms = [(label, energy_change(energy, names), *look) for label, names, *look in (*known, *further)]
     terms = [term for term in terms if np.any(term[1])]
     largest = max((float(np.abs(values).max()) for _, values, *_ in terms), default=0.0)
     scale, unit = scale_of(largest)

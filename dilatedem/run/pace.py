@@ -6,9 +6,12 @@ from fractions import Fraction
 from dilatedem.case.schema import Case
 from dilatedem.errors import CaseError
 from dilatedem.run.observers import intervals
+from dilatedem.water.loads import shortest_time
 
-#: s that a step of a body which nothing can touch may last: a thousandth of the time in which the water's loads change
+#: share of the time in which loads change that a step of a body which nothing can touch may last
 LONGEST_SPAN = 1e-3
+#: s that it may last at most, however slowly they change
+LONGEST_STEP = 1e-3
 #: most steps in such a step; more would save next to nothing
 MOST_SPAN = 16
 #: steps in the time that all outputs have in common, at least, for the step to divide it; else it divides the force window alone
@@ -32,7 +35,7 @@ def time_step(case: Case, critical: float) -> float:
     common = _common_part(intervals(case))
     if common >= SHORTEST_WINDOW * longest:
         window = common
-    steps, span = math.ceil(window / longest - 1e-9), longest_span(longest)
+    steps, span = math.ceil(window / longest - 1e-9), longest_span(longest, shortest_time(case))
     span = max(1, min(span, steps // 4))  # a short window is not worth a shorter step
     return window / (-(-steps // span) * span)
 
@@ -44,9 +47,9 @@ def _common_part(times: list[float]) -> float:
     return float(Fraction(math.gcd(*(int(interval * scale) for interval in exact)), scale))
 
 
-def longest_span(dt: float) -> int:
-    """The most steps of dt [s] that idle bodies may take in one."""
-    return max(1, min(MOST_SPAN, int(LONGEST_SPAN / dt * (1.0 + 1e-9))))
+def longest_span(dt: float, changing: float) -> int:
+    """The most steps of dt [s] that idle bodies may take in one, under loads that change over a time [s]."""
+    return max(1, min(MOST_SPAN, int(min(LONGEST_SPAN * changing, LONGEST_STEP) / dt * (1.0 + 1e-9))))
 
 
 def free_span(case: Case, dt: float) -> int:
@@ -55,7 +58,7 @@ def free_span(case: Case, dt: float) -> int:
     What else falls due within a span is written at its end (`Schedule`); no span is longer than a sixteenth of such an interval.
     """
     window, *others = (interval / dt for interval in intervals(case))
-    spans = [span for span in range(1, longest_span(dt) + 1) if span == 1 or _divides(span, window)]
+    spans = [span for span in range(1, longest_span(dt, shortest_time(case)) + 1) if span == 1 or _divides(span, window)]
     return max(span for span in spans if all(_divides(span, other) or 16 * span <= other for other in others) or span == 1)
 
 

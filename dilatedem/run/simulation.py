@@ -21,6 +21,7 @@ from dilatedem.state.model import Model
 from dilatedem.state.pairs import Pairs, empty_pairs, grown, in_use
 from dilatedem.state.storage import Cells, Tally, Workspace, empty_tally, make_cells, make_workspace
 from dilatedem.step.advance import advance
+from dilatedem.water.loads import WORKS, works_of
 
 #: room for pairs at the start, per body; it grows where it is not enough
 PAIRS_PER_BODY = 8
@@ -86,7 +87,7 @@ class Simulation:
         dt = time_step(case, critical)
         span = free_span(case, dt)
         state = State(
-            Ids(np.arange(scene.count)), bodies, empty_pairs(PAIRS_PER_BODY * scene.count + 64), empty_ledger(),
+            Ids(np.arange(scene.count)), bodies, empty_pairs(PAIRS_PER_BODY * scene.count + 64), empty_ledger(len(WORKS)),
             empty_loads(len(scene.structures)), clock_at_start(), Watch(dt, span) if case.time.error_check else None,
         )  # fmt: skip
         return cls(case, scene, model, state, dt, critical, span, threads)
@@ -137,8 +138,11 @@ class Simulation:
 
     def energies(self) -> dict[str, float]:
         """The ledger as `advance` left it, in J: the columns of energy.csv (without time and residual)."""
-        structures = 0.0  # they do not move
-        return energies(self.state.ledger, float(self.state.bodies.work_drag.sum()), structures)
+        columns = {name: WORKS.index(name) for name in works_of(self.model.loads)}
+        ledger, work = self.state.ledger, self.state.bodies.work
+        done = {name: float(work[:, k].sum()) + float(ledger.departed_work[k]) for name, k in columns.items()}
+        done["work_structure"] = 0.0  # they do not move
+        return energies(ledger, done)
 
     def assembled_step_ratio(self) -> float:
         """dt over the critical step of the contacts that were open when `advance` came back (an upper bound)."""

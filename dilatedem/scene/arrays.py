@@ -13,6 +13,7 @@ from dilatedem.state.charts import Along, Charts
 from dilatedem.state.model import Model
 from dilatedem.state.setting import CONTACT_SETTINGS, ContactSetting, Surroundings
 from dilatedem.structures.kind import Part, perimeter
+from dilatedem.water.loads import WORKS, load_setting
 
 #: a load map's heights reach from so many ice thicknesses below the water level to so many above
 MAP_HEIGHTS = (-1.5, 1.0)
@@ -26,9 +27,8 @@ def build_model(case: Case, scene: Scene) -> Model:
     normals = [part.normal for part in parts if part.is_half_space]
     shapes = pack_shapes(scene.shapes + [part.shape for part in cores], normals, order)
     shapes.plan_reach[scene.count :] = [part.plan_reach for part in parts]
-    water, periodic = case.water, periodic_axes(case)
+    periodic = periodic_axes(case)
     _require_one_image(case, shapes.reach[: scene.count], cores, periodic)
-    current = water.velocity if water.enabled else (0.0, 0.0)
     return Model(
         floating=scene.count,
         structure_of=np.concatenate([np.full(scene.count, -1), _numbers(scene)]).astype(np.int64),
@@ -36,12 +36,10 @@ def build_model(case: Case, scene: Scene) -> Model:
         hulls=pack_hulls(scene.shapes, scene.order),
         solids=_solids(case, scene),
         contact=_contact_setting(case),
-        surroundings=Surroundings(
-            case.gravity.acceleration, water.enabled, water.density, *current, water.drag_force_coefficient,
-            water.drag_moment_coefficient, *np.where(periodic, case.domain.size, 0.0).tolist(),
-        ),
+        loads=load_setting(case),
+        surroundings=Surroundings(*np.where(periodic, case.domain.size, 0.0).tolist()),
         charts=_pack_charts(case, scene),
-    )  # fmt: skip
+    )
 
 
 def _parts(scene: Scene) -> list[Part]:
@@ -100,7 +98,7 @@ def _compliance(material) -> float:
 def initial_bodies(case: Case, scene: Scene, model: Model) -> Bodies:
     """All bodies where and as fast as the case says."""
     parts = _parts(scene)
-    bodies = bodies_at_rest(scene.count + len(parts))
+    bodies = bodies_at_rest(scene.count + len(parts), len(WORKS))
     ice_velocity = case.ice.initial_velocity
     if ice_velocity == "current":
         ice_velocity = (*case.water.velocity, 0.0) if case.water.enabled else (0.0, 0.0, 0.0)

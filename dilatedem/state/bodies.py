@@ -38,15 +38,14 @@ class Bodies(NamedTuple):
     contact_torque: np.ndarray  # (n, 3) N m
     contact_count: np.ndarray  # (n,) contacts at this instant
     path: np.ndarray  # (n,) m: bound on the distance any point of the body has moved, in the frame of `Pairs.frame`
-    drag_power: np.ndarray  # (n,) W
-    work_drag: np.ndarray  # (n,) J done by the drag since the start
+    power: np.ndarray  # (n, works) W of the loads in `water.loads.WORKS`
+    work: np.ndarray  # (n, works) J done by them since the start
 
 
-def bodies_at_rest(count: int) -> Bodies:
-    """n bodies at the origin, unturned, at rest, without loads."""
+def bodies_at_rest(count: int, works: int) -> Bodies:
+    """n bodies at the origin, unturned, at rest, without loads; works: loads whose work is booked."""
     orientation = np.zeros((count, 4))
     orientation[:, 0] = 1.0
     shapes = {"orientation": orientation, "contact_count": np.zeros(count, np.int64)}
-    for name in ("path", "drag_power", "work_drag"):
-        shapes[name] = np.zeros(count)
+    shapes |= {"path": np.zeros(count), "power": np.zeros((count, works)), "work": np.zeros((count, works))}
     return Bodies(**{name: shapes.get(name, np.zeros((count, 3))) for name in Bodies._fields})

@@ -10,8 +10,8 @@ import numpy as np
 
 #: signs of a term: stored, so that its change counts; came in since the start; went out
 STORED, GAIN, LOSS = 0, 1, -1
-#: who computes a term: `motion.energy` of an instant; the laws of contact, pair by pair; the water, body by body; structures
-INSTANT, CONTACT, WATER, STRUCTURE = "instant", "contact", "water", "structure"
+#: who computes a term: `motion.energy` of an instant; the laws of contact, pair by pair; loads, body by body; structures; `events`
+INSTANT, CONTACT, LOAD, STRUCTURE, EVENT = "instant", "contact", "load", "structure", "event"
 
 
 class Term(NamedTuple):
@@ -21,6 +21,7 @@ class Term(NamedTuple):
     sign: int
     owner: str
     label: str  # in words, for figures
+    optional: bool = False  # whether only some cases have it, and a column for it
 
 
 #: in the order of energy.csv
@@ -29,13 +30,13 @@ TERMS = (
     Term("gravity", STORED, INSTANT, "weight"),
     Term("buoyancy", STORED, INSTANT, "buoyancy"),
     Term("elastic", STORED, INSTANT, "elastic"),
-    Term("work_drag", GAIN, WATER, "work of the water's drag"),
+    Term("work_drag", GAIN, LOAD, "work of the water's drag"),
     Term("work_structure", GAIN, STRUCTURE, "work of the structures"),
     Term("loss_damping", LOSS, CONTACT, "lost to damping"),
     Term("loss_friction", LOSS, CONTACT, "lost to friction"),
     Term("gain_law", GAIN, CONTACT, "made by jumps of the contact law"),
+    Term("carried_out", LOSS, EVENT, "carried out by bodies that left", optional=True),
 )
-NAMES = tuple(term.name for term in TERMS)
 #: what contacts cost: the entries of `Pairs.cost`, of `Tally.cost` and of `Ledger.cost`, and the number of each
 COSTS = tuple(term.name for term in TERMS if term.owner == CONTACT)
 LOSS_DAMPING, LOSS_FRICTION, GAIN_LAW = map(COSTS.index, ("loss_damping", "loss_friction", "gain_law"))
@@ -45,19 +46,23 @@ KINETIC, GRAVITY, BUOYANCY, ELASTIC = map(INSTANTS.index, ("kinetic", "gravity",
 
 
 class Ledger(NamedTuple):
-    """Energies, J: what contacts cost since the start, and what is stored where `advance` came back."""
+    """Energies, J: what contacts cost since the start, what is stored where `advance` came back, what went with bodies."""
 
     cost: np.ndarray  # (COSTS,)
     instant: np.ndarray  # (INSTANTS,)
+    carried_out: np.ndarray  # (1,) energy that bodies had when they left
+    departed_work: np.ndarray  # (works,) done by loads on bodies that have left
 
 
-def empty_ledger() -> Ledger:
-    return Ledger(np.zeros(len(COSTS)), np.zeros(len(INSTANTS)))
+def empty_ledger(works: int = 0) -> Ledger:
+    """Nothing done yet; works: loads whose work is booked."""
+    return Ledger(np.zeros(len(COSTS)), np.zeros(len(INSTANTS)), np.zeros(1), np.zeros(works))
 
 
-def energies(ledger: Ledger, work_drag: float, work_structure: float) -> dict[str, float]:
-    """All terms by name [J], in the order of the table."""
-    found = {"work_drag": work_drag, "work_structure": work_structure}
-    found |= zip(COSTS, ledger.cost.tolist(), strict=True)
-    found |= zip(INSTANTS, ledger.instant.tolist(), strict=True)
-    return {name: found[name] for name in NAMES}
+def energies(ledger: Ledger, works: dict[str, float]) -> dict[str, float]:
+    """All terms by name [J], in the order of the table.
+
+    works: those that the ledger does not hold. Terms that are optional and not among them are left out.
+    """
+    found = works | dict(zip(COSTS, ledger.cost.tolist(), strict=True)) | dict(zip(INSTANTS, ledger.instant.tolist(), strict=True))
+    return {term.name: found[term.name] for term in TERMS if term.name in found or not term.optional}

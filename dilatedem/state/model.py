@@ -17,5 +17,6 @@ class Model(NamedTuple):
     hulls: Hulls
     solids: Solids
     contact: ContactSetting
+    loads: NamedTuple  # `water.loads.LoadSetting`
     surroundings: Surroundings
     charts: Charts

@@ -24,12 +24,7 @@ CONTACT_SETTINGS = {"liu2015": Liu2015Setting, "consistent": ConsistentSetting}
 
 
 class Surroundings(NamedTuple):
-    gravity: float  # m/s2, along -z
-    water: bool  # whether there is any
-    water_density: float  # kg/m3
-    current_x: float  # m/s
-    current_y: float  # m/s
-    drag_force: float  # C_d^F of Liu 2015, Eq. (26)
-    drag_moment: float  # C_d^M of Eq. (27)
+    """The domain."""
+
     period_x: float  # m, 0 = not periodic
     period_y: float  # m, 0 = not periodic

@@ -37,7 +37,7 @@ def advance(team, model, bodies, pairs, spare, cells, workspace, tally, ledger, 
             clock.moves[0] += busy
             awake, at_structure = awake_pairs(near, model.structure_of, bodies, pairs, workspace)
             collide_pairs(team, awake, dt, model, bodies, pairs, workspace, tally)
-            load_and_kick(team, workspace.busy, busy, awake, dt, model, bodies, pairs, workspace)
+            load_and_kick(team, workspace.busy, busy, awake, dt, clock.time[0], model, bodies, pairs, workspace)
             load_structures(at_structure, dt, model.structure_of, model.charts, bodies, pairs, workspace, loads)
             record_loads(loads)
             end_window(clock.step[0], loads, windows)
@@ -48,7 +48,7 @@ def advance(team, model, bodies, pairs, spare, cells, workspace, tally, ledger, 
         spent = (clock.step[0] - start) * dt
         if not drift_bodies(team, workspace.idle, idle, spent, model, bodies, pairs, workspace, clock):
             status = TOO_FAST
-        load_and_kick(team, workspace.idle, idle, 0, spent, model, bodies, pairs, workspace)
+        load_and_kick(team, workspace.idle, idle, 0, spent, clock.time[0], model, bodies, pairs, workspace)
     close_tally(tally, ledger, loads, clock)
     complete_spins(model, bodies)
     book_energies(model, bodies, pairs, workspace, ledger)

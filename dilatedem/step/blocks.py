@@ -248,7 +248,7 @@ def collide_pairs(team, count, dt, model, bodies, pairs, workspace, tally):
 
 @device
 def _load_and_kick_block(
-    block, blocks, chosen, count, awake, dt, floating, hulls, solids, surroundings, bodies, pairs, workspace
+    block, blocks, chosen, count, awake, dt, time, floating, hulls, solids, setting, bodies, pairs, workspace
 ):
     """All loads on one of `blocks` equal parts of the bodies, and the second half of their kick; dt = 0: the loads alone."""
     first, last = part(count, block, blocks)
@@ -257,31 +257,29 @@ def _load_and_kick_block(
     sum_contacts(chosen, first, last, awake, bodies, pairs, workspace)
     while last > first and chosen[last - 1] >= floating:  # structures feel no water and never move
         last -= 1
-    if surroundings.water:
+    if setting.water:
         submerge(chosen, first, last, hulls, bodies, workspace, block)
     for w in range(first, last):
         i = chosen[w]
-        force, torque, power = body_loads(i, hulls, solids, surroundings, bodies, workspace.wet)
+        force, torque = body_loads(i, dt, time, setting, hulls, solids, bodies, workspace.wet)
         for m in range(3):
             bodies.force[i, m] = force[m] + bodies.contact_force[i, m]
             bodies.torque[i, m] = torque[m] + bodies.contact_torque[i, m]
-        bodies.work_drag[i] += 0.5 * dt * (power + bodies.drag_power[i])
-        bodies.drag_power[i] = power
         if dt > 0.0 and solids.inverse_mass[i] > 0.0:
             kick(i, dt, solids, bodies)
 
 
 @device
-def _load_and_kick_alone(team, chosen, count, awake, dt, floating, hulls, solids, surroundings, bodies, pairs, workspace):
-    _load_and_kick_block(0, 1, chosen, count, awake, dt, floating, hulls, solids, surroundings, bodies, pairs, workspace)
+def _load_and_kick_alone(team, chosen, count, awake, dt, time, floating, hulls, solids, setting, bodies, pairs, workspace):
+    _load_and_kick_block(0, 1, chosen, count, awake, dt, time, floating, hulls, solids, setting, bodies, pairs, workspace)
 
 
 @shared_loop
-def _load_and_kick_shared(team, chosen, count, awake, dt, floating, hulls, solids, surroundings, bodies, pairs, workspace):
+def _load_and_kick_shared(team, chosen, count, awake, dt, time, floating, hulls, solids, setting, bodies, pairs, workspace):
     blocks = team.threads
     for block in prange(blocks):
         _load_and_kick_block(
-            block, blocks, chosen, count, awake, dt, floating, hulls, solids, surroundings, bodies, pairs, workspace
+            block, blocks, chosen, count, awake, dt, time, floating, hulls, solids, setting, bodies, pairs, workspace
         )
 
 
@@ -289,8 +287,8 @@ _load_and_kick_all = by_type(_load_and_kick_alone, {Team: _load_and_kick_shared}
 
 
 @device
-def load_and_kick(team, chosen, count, awake, dt, model, bodies, pairs, workspace):
-    """All loads on the first `count` bodies in `chosen`, contacts being among the `awake` pairs, and the end of their kick."""
+def load_and_kick(team, chosen, count, awake, dt, time, model, bodies, pairs, workspace):
+    """All loads at `time` on the first `count` bodies in `chosen`, contacts among the `awake` pairs; the end of their kick."""
     _load_and_kick_all(
-        team, chosen, count, awake, dt, model.floating, model.hulls, model.solids, model.surroundings, bodies, pairs, workspace
+        team, chosen, count, awake, dt, time, model.floating, model.hulls, model.solids, model.loads, bodies, pairs, workspace
     )

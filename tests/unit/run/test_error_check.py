@@ -182,7 +182,7 @@ def watched(peaks: dict[float, float], *, end: float, dt: float = 1e-3) -> Watch
     """A watch that looked every 0.01 s and found these loads (time [s] -> N) on the second of two structures."""
     watch, loads = Watch(dt), empty_loads(2)
     windows = no_windows(2)
-    state = SimpleNamespace(clock=clock_at_start(), loads=loads, bodies=bodies_at_rest(1), pairs=empty_pairs(3))
+    state = SimpleNamespace(clock=clock_at_start(), loads=loads, bodies=bodies_at_rest(1, 1), pairs=empty_pairs(3))
     for look in range(round(end / 0.01) + 1):
         state.clock.step[0] = round(look * 0.01 / dt)
         loads.steps[0] = min(look, 1)
