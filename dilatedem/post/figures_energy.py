@@ -39,7 +39,8 @@ def energy_figure(energy: Table) -> Drawing:
     time = energy["time_s"]
     known = [term for term in TERMS if present(energy, term[1])]
     shown = {"time_s", "residual", *(name for term in known for name in term[1])}
-    further = [(name.replace("_", " "), (name,), SERIES[n % len(SERIES)], "-.") for n, name in enumerate(sorted(set(energy) - shown))]
+    others = sorted(set(energy) - shown)
+    further = [(name.replace("_", " "), (name,), SERIES[n % len(SERIES)], "-.") for n, name in enumerate(others)]
     terms = [(label, energy_change(energy, names), *look) for label, names, *look in (*known, *further)]
     terms = [term for term in terms if np.any(term[1])]
     largest = max((float(np.abs(values).max()) for _, values, *_ in terms), default=0.0)

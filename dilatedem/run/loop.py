@@ -74,9 +74,11 @@ def _loop(simulation: Simulation, files: RunFolder, steps: int, progress: Progre
     now = int(clock.step[0])
     progress.update(simulation.time_s, now, lambda: simulation.contacts)
     while now < steps:
-        status = simulation.advance(min(files.next_due, steps, now + longest) - now)
+        status = simulation.advance(min(files.next_due, simulation.next_event(now), steps, now + longest) - now)
         _stop_on_fault(simulation, files, status)
         now = int(clock.step[0])
+        if simulation.let_happen():
+            files.repacked()
         files.observe(last=now == steps)
         progress.update(simulation.time_s, now, lambda: simulation.contacts)
         if interruption.asked and now < steps:

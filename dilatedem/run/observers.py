@@ -182,7 +182,8 @@ class RunFolder:
         meta = {"version": __version__, "dt": self._simulation.dt, "wall_s": self._wall_s, "compile_s": self._compile_s}
         meta |= {"watch": watch.figures()} if watch else {}
         kept = {observer.name: observer.kept() for observer in self._observers}
-        self._background.put(self._write_checkpoint, file, self._simulation.state.copies(), meta, kept)
+        groups = self._simulation.state.copies() | self._simulation.remodelled_groups()
+        self._background.put(self._write_checkpoint, file, groups, meta, kept)
 
     def _write_checkpoint(self, file: str, groups: dict, meta: dict, kept: dict) -> None:
         """In the background. What it counts on is on the disk before it."""

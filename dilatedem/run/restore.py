@@ -2,12 +2,16 @@
 
 from pathlib import Path
 
+import numpy as np
+
 from dilatedem import __version__
 from dilatedem.case import write
 from dilatedem.case.schema import Case
 from dilatedem.errors import CaseError
+from dilatedem.geometry.shapes import Hulls, Shapes
 from dilatedem.output import checkpoint, folder
 from dilatedem.run.simulation import Simulation
+from dilatedem.state.bodies import Solids
 from dilatedem.state.pairs import unpacked
 
 
@@ -33,11 +37,17 @@ def load_checkpoint(out: Path, case: Case, simulation: Simulation) -> dict:
     if meta["dt"] != simulation.dt:
         steps = f"{meta['dt']:g} s, this program takes {simulation.dt:g} s"
         raise CaseError(f"{file}: has steps of {steps}; run anew with --overwrite")
-    state, room = simulation.state, len(simulation.state.pairs.a)
+    state, model, room = simulation.state, simulation.model, len(simulation.state.pairs.a)
     for name, current in state.groups().items():
         setattr(state, name, checkpoint.restore(type(current), groups[name], where=str(file)))
     state.pairs = unpacked(state.pairs, max(room, len(state.pairs.a)))
     if state.watch:
         state.watch.restore(groups, meta["watch"], where=str(file))
     simulation.make_room()
+    if "shapes" in groups:  # bodies have come or gone since the start
+        kinds = {"shapes": Shapes, "hulls": Hulls, "solids": Solids}
+        arrays = {name: checkpoint.restore(kind, groups[name], where=str(file)) for name, kind in kinds.items()}
+        floating, structures = len(state.ids.body), model.structure_of[model.floating :]
+        structure_of = np.concatenate([np.full(floating, -1), structures]).astype(np.int64)
+        simulation.adopt(model._replace(floating=floating, structure_of=structure_of, **arrays))
     return meta

@@ -7,6 +7,8 @@ import numpy as np
 
 from dilatedem.case.schema import Case
 from dilatedem.errors import CaseError
+from dilatedem.events.event import Event
+from dilatedem.events.kinds import events_of
 from dilatedem.jit import Alone, Team, is_cached
 from dilatedem.motion.timestep import critical_step
 from dilatedem.run.error_check import Watch
@@ -14,7 +16,7 @@ from dilatedem.run.pace import free_span, time_step
 from dilatedem.scene.arrays import build_model, initial_bodies
 from dilatedem.scene.place import Scene, compose
 from dilatedem.state.bodies import Bodies, Ids
-from dilatedem.state.clock import Clock, Status, clock_at_start
+from dilatedem.state.clock import NEVER, Clock, Status, clock_at_start
 from dilatedem.state.ledger import Ledger, empty_ledger, energies
 from dilatedem.state.loads import Loads, Windows, empty_loads, no_windows
 from dilatedem.state.model import Model
@@ -40,6 +42,7 @@ class State:
     watch: Watch | None = None  # of the highest load, where `time.error_check` asks for it
 
     def groups(self) -> dict:
+        """All arrays of the state, by name."""
         own = {name: getattr(self, name) for name in ("ids", "bodies", "ledger", "loads", "clock")}
         return own | {"pairs": in_use(self.pairs)} | (self.watch.groups() if self.watch else {})
 
@@ -61,6 +64,8 @@ class Simulation:
     critical: float
     span: int = 1  # steps that bodies which nothing can touch take in one
     threads: int = 1
+    remodelled: bool = False  # whether bodies have come or gone
+    events: list[Event] = field(init=False)  # that can happen
     spare: Pairs = field(init=False)
     cells: Cells = field(init=False)
     workspace: Workspace = field(init=False)
@@ -68,6 +73,7 @@ class Simulation:
     windows: Windows = field(init=False)
 
     def __post_init__(self):
+        self.events = events_of(self)
         self.cells, self.tally = make_cells(self.model.floating), empty_tally()
         self.windows = no_windows(len(self.state.loads.step_contacts))
         self.make_room()
@@ -142,6 +148,8 @@ class Simulation:
         ledger, work = self.state.ledger, self.state.bodies.work
         done = {name: float(work[:, k].sum()) + float(ledger.departed_work[k]) for name, k in columns.items()}
         done["work_structure"] = 0.0  # they do not move
+        if self.events:
+            done["carried_out"] = float(ledger.carried_out[0])
         return energies(ledger, done)
 
     def assembled_step_ratio(self) -> float:
@@ -164,6 +172,25 @@ class Simulation:
             team, self.model, state.bodies, state.pairs, self.spare, self.cells, self.workspace, self.tally, state.ledger,
             state.loads, self.windows, state.clock,
         )  # fmt: skip
+
+    def next_event(self, step: int) -> int:
+        """The first step after `step` at which an event may happen."""
+        return min((event.schedule.next_due(step) for event in self.events), default=NEVER)
+
+    def let_happen(self) -> bool:
+        """Have the events happen that are due at the present step; returns whether bodies have come or gone."""
+        step = int(self.state.clock.step[0])
+        return any([event.happen(self) for event in self.events if event.schedule.is_due(step)])
+
+    def adopt(self, model: Model) -> None:
+        """Go on with other bodies; the state's rows are theirs already. From now on a checkpoint holds the model, too."""
+        self.model, self.remodelled = model, True
+        self.cells = make_cells(model.floating)
+        self.make_room()
+
+    def remodelled_groups(self) -> dict:
+        """What of the model is no longer what the case makes of it, by name."""
+        return {name: getattr(self.model, name) for name in ("shapes", "hulls", "solids")} if self.remodelled else {}
 
     def make_room(self, capacity: int = 0) -> None:
         """Workspaces of the size that the list of pairs has, or of `capacity` pairs, where that is more."""

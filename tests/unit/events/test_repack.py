@@ -1,0 +1,85 @@
+"""Bodies that go: who stays keeps its number, its motion, its contacts and their memory, and the ledger closes."""
+
+from pathlib import Path
+
+import numpy as np
+
+from dilatedem.case.load import load
+from dilatedem.events.repack import without
+from dilatedem.run.simulation import Simulation
+from dilatedem.state.clock import Status
+from dilatedem.state.pairs import in_use
+
+CROWDED = Path(__file__).parents[2] / "cases" / "crowded.toml"
+
+
+def in_contact() -> Simulation:
+    """Floes of which several touch each other and the pile."""
+    simulation = Simulation.of_case(load(CROWDED))
+    while simulation.contacts < 4:
+        assert simulation.advance(200) == Status.DONE
+    return simulation
+
+
+def partners(simulation: Simulation) -> dict[tuple[int, int], tuple]:
+    """By the ids of an open contact's bodies (structures: -1): mode, overlap, slip, and where its closest corners lie."""
+    pairs, ids, vertex = simulation.state.pairs, simulation.state.ids.body, simulation.model.shapes.vertex
+    found = {}
+    for k in np.flatnonzero(pairs.overlap[: pairs.count[0]] > 0.0):
+        a, b, used = pairs.a[k], pairs.b[k], pairs.corners[k]
+        corners = vertex[pairs.corner_a[k, :used]], vertex[pairs.corner_b[k, :used]]
+        name = (int(ids[a]), int(ids[b]) if b < len(ids) else -1)
+        found[name] = (pairs.mode[k], pairs.overlap[k], pairs.slip[k].copy(), *corners)
+    return found
+
+
+def test_who_stays_keeps_number_motion_and_contacts():
+    simulation = in_contact()
+    touching = partners(simulation)
+    gone = np.zeros(simulation.model.floating, np.bool_)
+    gone[[0, 7]] = True
+    loser, _ = next(name for name in touching if name[1] >= 0)
+    gone[loser] = True
+    before = {number: simulation.state.bodies.position[number].copy() for number in np.flatnonzero(~gone)}
+    without(simulation, gone)
+    assert list(simulation.state.ids.body) == list(before)
+    np.testing.assert_array_equal(simulation.state.bodies.position[: simulation.model.floating], list(before.values()))
+    stayed = {name: found for name, found in touching.items() if not gone[name[0]] and (name[1] < 0 or not gone[name[1]])}
+    now = partners(simulation)
+    assert now.keys() == stayed.keys() and 0 < len(now) < len(touching)
+    for name, (mode, overlap, slip, *corners) in stayed.items():
+        assert now[name][0] == mode and now[name][1] == overlap
+        np.testing.assert_allclose(now[name][2], slip, rtol=1e-12, atol=1e-18)
+        for found, expected in zip(now[name][3:], corners, strict=True):
+            np.testing.assert_array_equal(found, expected)
+    listed = in_use(simulation.state.pairs)
+    assert np.all(np.diff(listed.a * 10_000 + listed.b) > 0), "the list keeps its order"
+    assert simulation.advance(500) == Status.DONE
+
+
+def balance(simulation: Simulation) -> float:
+    """What is stored and was lost or carried out, less what came in [J]."""
+    e = simulation.energies()
+    stored = e["kinetic"] + e["gravity"] + e["buoyancy"] + e["elastic"] + float(simulation.state.ledger.carried_out[0])
+    return stored + e["loss_damping"] + e["loss_friction"] - e["work_drag"] - e["gain_law"]
+
+
+def test_what_bodies_take_with_them_is_on_the_books():
+    simulation = in_contact()
+    start = balance(simulation)
+    kinetic, done = simulation.energies()["kinetic"], simulation.energies()["work_drag"]
+    gone = np.zeros(simulation.model.floating, np.bool_)
+    gone[::3] = True
+    without(simulation, gone)
+    assert abs(balance(simulation) - start) < 1e-9 * kinetic
+    assert simulation.energies()["kinetic"] < 0.9 * kinetic
+    assert abs(simulation.energies()["work_drag"] - done) < 1e-12 * abs(done)
+    assert simulation.advance(2000) == Status.DONE
+    assert abs(balance(simulation) - start) < 1e-4 * kinetic
+
+
+def test_all_may_go():
+    simulation = in_contact()
+    without(simulation, np.ones(simulation.model.floating, np.bool_))
+    assert simulation.model.floating == 0 and simulation.contacts == 0
+    assert simulation.advance(100) == Status.DONE
