@@ -42,7 +42,7 @@ PoissonRatio = Annotated[float, Field(ge=0, lt=0.5)]
 Vector2 = Annotated[tuple[float, float], _as_tuple(2)]
 Vector3 = Annotated[tuple[float, float, float], _as_tuple(3)]
 Size2 = Annotated[tuple[Positive, Positive], _as_tuple(2)]
-Boundary = Literal["open", "periodic", "wall"]
+Boundary = Literal["open", "periodic", "wall", "outflow"]
 # A name serves as an HDF5 group, a CSV field and a step of a dotted key: no / or comma or dot, and no number.
 # \w is a letter or digit of any alphabet, [^\W\d] the same without the digits.
 Name = Annotated[str, Field(pattern=r"^[^\W\d][\w-]*$")]

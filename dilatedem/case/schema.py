@@ -41,7 +41,11 @@ class Domain(Table):
     """The rectangle of sea, centred on the origin. The still water level is z = 0, z points up."""
 
     size: Size2 = key((50.0, 50.0), "m", "Extent along x (the usual direction of the current) and along y.")
-    x_boundary: Boundary = key("open", "", "The two sides at x = -size/2 and +size/2.")
+    x_boundary: Boundary = key(
+        "open", "",
+        "The two sides at x = -size/2 and +size/2. Through `open` and `outflow` ice leaves: `open` goes on following it, "
+        "`outflow` drops what has left as a whole.",
+    )
     y_boundary: Boundary = key("open", "", "The two sides at y = -size/2 and +size/2.")
 
 
@@ -185,7 +189,7 @@ class Case(Table):
     body: list[Body] = []
 
     def faults(self) -> list[Fault]:
-        return [*self._name_faults(), *self._body_faults(), *self._track_faults()]
+        return [*self._name_faults(), *self._body_faults(), *self._track_faults(), *self._check_faults()]
 
     @model_validator(mode="after")
     def _fill_bodies(self):
@@ -232,6 +236,12 @@ class Case(Table):
                 faults = _dilation_faults(radius, thickness)
                 found += [(("body", i, *where), text) for where, text in faults]
         return found
+
+    def _check_faults(self) -> list[Fault]:
+        if self.time.error_check and "outflow" in (self.domain.x_boundary, self.domain.y_boundary):
+            text = "must be false where a boundary is \"outflow\": bodies that have left cannot be replayed; take \"open\""
+            return [(("time", "error_check"), text)]
+        return []
 
     def _track_faults(self) -> list[Fault]:
         # The number of generated floes is known only once the field was built, so that is checked there.

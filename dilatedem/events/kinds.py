@@ -1,8 +1,9 @@
 """The events there are. A new one is a file beside this one, and its class in this list."""
 
 from dilatedem.events.event import Event
+from dilatedem.events.outflow import Outflow
 
-EVENTS: tuple[type[Event], ...] = ()
+EVENTS: tuple[type[Event], ...] = (Outflow,)
 
 
 def events_of(simulation) -> list[Event]:

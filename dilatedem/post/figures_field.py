@@ -28,6 +28,7 @@ PAGE_WIDTH = 10.0  # inch, of a row of panels
 SIDES = {
     "periodic": "dashed where periodic",
     "open": "dotted where open",
+    "outflow": "dotted where ice leaves",
     "wall": "full lines where walls stand",
 }
 

@@ -1,0 +1,76 @@
+"""A run that was stopped and resumed equals one that never was, whatever the contact model, boundaries, threads and structure.
+
+Sixteen cases in which every pair of these choices occurs.
+"""
+
+import pytest
+from folders import assert_same_run
+
+from dilatedem.case.schema import Case
+from dilatedem.errors import Interrupted
+from dilatedem.run import loop
+from dilatedem.run.interruption import Interruption
+
+MODELS = ("liu2015", "consistent")
+BOUNDARIES = (("open", "periodic"), ("periodic", "periodic"), ("wall", "open"), ("outflow", "wall"))
+STRUCTURES = (
+    [],
+    [{"kind": "pile", "center": [1.0, 0.0], "radius": 0.5}],
+    [{"kind": "plane", "point": [3.0, 0.0, 0.0], "normal": [-1.0, 0.2, 0.3]}],
+    [{"kind": "pile", "name": "one", "center": [1.0, -1.0], "radius": 0.4}, {"kind": "pile", "name": "two", "center": [0.0, 2.0], "radius": 0.5}],
+)
+CHOSEN = [
+    (MODELS[(boundary + structure) % 2], BOUNDARIES[boundary], 1 + (boundary // 2 + structure) % 2, STRUCTURES[structure])
+    for boundary in range(4)
+    for structure in range(4)
+]
+
+
+def case_of(model: str, boundaries: tuple[str, str], structure: list[dict]) -> Case:
+    """Twenty floes that move fast and touch each other soon."""
+    return Case.model_validate({
+        "domain": {"size": [12.0, 12.0], "x_boundary": boundaries[0], "y_boundary": boundaries[1]},
+        "field": {"floe_count": 20, "concentration": 0.8, "seed": 5},
+        "ice": {"initial_velocity": [3.0, 0.8, 0.0], "dilated_radius": 0.06},
+        "water": {"velocity": [2.0, 0.5]},
+        "structure": structure,
+        "contact": {"model": model},
+        "time": {"duration": 1.1 if "outflow" in boundaries else 0.4, "step_fraction": 0.4},
+        "output": {"force_interval": 0.05, "snapshot_interval": 0.15, "checkpoint_interval": 0.12, "track": "all",
+                   "track_interval": 0.1},
+    })  # fmt: skip
+
+
+class AskedOnce(Interruption):
+    """Stands for a user who presses Ctrl-C at the eighth look at the keyboard."""
+
+    looks = 8
+
+    @property
+    def asked(self) -> bool:
+        self.looks -= 1
+        return self.looks < 0
+
+    @asked.setter
+    def asked(self, value: bool) -> None:
+        pass
+
+
+@pytest.mark.parametrize(("model", "boundaries", "threads", "structure"), CHOSEN)
+def test_resumed_equals_uninterrupted(model, boundaries, threads, structure, monkeypatch, tmp_path):
+    case = case_of(model, boundaries, structure)
+    whole = loop.run(case, tmp_path / "whole", threads=threads, quiet=True)
+    monkeypatch.setattr(loop, "Interruption", AskedOnce)
+    with pytest.raises(Interrupted):
+        loop.run(case, tmp_path / "parts", threads=threads, quiet=True)
+    monkeypatch.undo()
+    loop.run(case, tmp_path / "parts", threads=3 - threads, resume=True, quiet=True)  # the number of threads changes nothing
+    assert_same_run(tmp_path / "parts", whole)
+
+
+def test_every_pair_of_choices_occurs():
+    for one in range(4):
+        for other in range(one):
+            sets = [{str(choice[k]) for choice in CHOSEN} for k in (one, other)]
+            met = {(str(choice[one]), str(choice[other])) for choice in CHOSEN}
+            assert len(met) == len(sets[0]) * len(sets[1]), (one, other)
