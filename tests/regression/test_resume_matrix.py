@@ -17,7 +17,10 @@ STRUCTURES = (
     [],
     [{"kind": "pile", "center": [1.0, 0.0], "radius": 0.5}],
     [{"kind": "plane", "point": [3.0, 0.0, 0.0], "normal": [-1.0, 0.2, 0.3]}],
-    [{"kind": "pile", "name": "one", "center": [1.0, -1.0], "radius": 0.4}, {"kind": "pile", "name": "two", "center": [0.0, 2.0], "radius": 0.5}],
+    [
+        {"kind": "pile", "name": "one", "center": [1.0, -1.0], "radius": 0.4},
+        {"kind": "box", "name": "two", "center": [0.0, 2.5], "size": [1.0, 0.8], "rotation": 25.0},
+    ],
 )
 CHOSEN = [
     (MODELS[(boundary + structure) % 2], BOUNDARIES[boundary], 1 + (boundary // 2 + structure) % 2, STRUCTURES[structure])
