@@ -45,7 +45,7 @@ def fault_lines(tmp_path: Path, text: str, *overrides: str) -> list[str]:
         ("[domain]\nsize = [\n50.0,\n-1.0]", "pile.toml:2: domain.size.1 = -1.0: must be greater than 0"),
         (
             '[domain]\nx_boundary = "periodc"',
-            'pile.toml:2: domain.x_boundary = "periodc": must be "open", "periodic" or "wall"; '
+            'pile.toml:2: domain.x_boundary = "periodc": must be "open", "periodic", "wall" or "outflow"; '
             'did you mean "periodic"?',
         ),
         ("[time]\nstep = -1", 'pile.toml:2: time.step = -1: must be "auto" or a number greater than 0'),
@@ -97,11 +97,11 @@ def test_fault_of_a_table(tmp_path, text, expected):
         ),
         (
             '[[structure]]\nkind = "pyle"',
-            'pile.toml:2: structure.0.kind = "pyle": must be "pile" or "plane"; did you mean "pile"?',
+            'pile.toml:2: structure.0.kind = "pyle": must be "pile", "plane" or "box"; did you mean "pile"?',
         ),
         (
             "[[structure]]\nradius = 2.0",
-            'pile.toml:1: structure.0.kind: is missing; it must be "pile" or "plane"',
+            'pile.toml:1: structure.0.kind: is missing; it must be "pile", "plane" or "box"',
         ),
         (
             '[[structure]]\nkind = "pile"\nradus = 2.0',
