@@ -110,6 +110,17 @@ class Water(Table):
     )
 
 
+class Wind(Table):
+    """A steady wind, on what of a floe stands out of the water. `velocity = [0, 0]` switches it off."""
+
+    velocity: Vector2 = key((0.0, 0.0), "m/s", "Velocity of the wind along x and y, at the height that the coefficients refer to.")
+    density: Positive = key(1.3, "kg/m3", "Density of the air.")
+    skin_coefficient: NonNegative = key(0.002, "", "Coefficient of the drag on the upper face, referred to the plan area.")
+    form_coefficient: NonNegative = key(
+        0.8, "", "Coefficient of the drag on the sides, referred to the freeboard times the mean width of the floe."
+    )
+
+
 class Gravity(Table):
     """Uniform gravity."""
 
@@ -181,6 +192,7 @@ class Case(Table):
     field: IceField = IceField()
     ice: Ice = Ice()
     water: Water = Water()
+    wind: Wind = Wind()
     gravity: Gravity = Gravity()
     structure: list[Annotated[Union[kinds.KINDS], Field(discriminator="kind")]] = []  # noqa: UP007 (a union of a list of classes)
     contact: Contact = Contact()

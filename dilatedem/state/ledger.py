@@ -35,6 +35,7 @@ TERMS = (
     Term("loss_damping", LOSS, CONTACT, "lost to damping"),
     Term("loss_friction", LOSS, CONTACT, "lost to friction"),
     Term("gain_law", GAIN, CONTACT, "made by jumps of the contact law"),
+    Term("work_wind", GAIN, LOAD, "work of the wind", optional=True),
     Term("carried_out", LOSS, EVENT, "carried out by bodies that left", optional=True),
 )
 #: what contacts cost: the entries of `Pairs.cost`, of `Tally.cost` and of `Ledger.cost`, and the number of each

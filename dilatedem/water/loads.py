@@ -6,10 +6,10 @@ from collections.abc import Callable
 from dilatedem.jit import item
 from dilatedem.numerics.vector import add
 from dilatedem.water.term import LoadTerm
-from dilatedem.water.terms import buoyancy, drag, weight
+from dilatedem.water.terms import buoyancy, drag, weight, wind
 
 #: in the order in which they are added up
-TERMS: tuple[LoadTerm, ...] = (weight.TERM, buoyancy.TERM, drag.TERM)
+TERMS: tuple[LoadTerm, ...] = (weight.TERM, buoyancy.TERM, drag.TERM, wind.TERM)
 
 #: parameters of all terms, by name: flat, as parallel loops want it
 LoadSetting = namedtuple("LoadSetting", dict.fromkeys(name for term in TERMS for name in term.parameters))
