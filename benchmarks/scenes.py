@@ -109,7 +109,7 @@ def tiled(tile: Simulation, along_x: int, along_y: int, *, threads: int = 1) -> 
         charts=repeated_charts(tile.model.charts, moves),
     )
     bodies: Bodies = repeated_bodies(tile.state.bodies, floating, moves)
-    loads = empty_loads(len(model.charts.center))
+    loads = empty_loads(len(model.charts.center), int(model.charts.map.max(initial=-1)) + 1)
     pairs = empty_pairs(PAIRS_PER_BODY * len(bodies.path) + 64)
     ledger = empty_ledger(len(tile.state.ledger.departed_work))
     state = State(Ids(np.arange(model.floating)), bodies, pairs, ledger, loads, clock_at_start())

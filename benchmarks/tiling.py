@@ -42,9 +42,10 @@ def repeated_bodies(bodies: Bodies, floating: int, moves: np.ndarray) -> Bodies:
 
 def repeated_structures(structure_of: np.ndarray, floating: int, copies: int) -> np.ndarray:
     """The structure that each body of `copies` scenes belongs to."""
-    own, count = structure_of[floating:], int(structure_of.max(initial=-1)) + 1
-    moved = [own + turn * count for turn in range(copies)]
-    return np.concatenate([np.full(copies * floating, -1), *moved]).astype(structure_of.dtype)
+    count = int(structure_of.max(initial=-1)) + 1
+    turns = np.arange(copies)[:, None] * count
+    parts = [np.where(own >= 0, own + turns, -1).ravel() for own in (structure_of[:floating], structure_of[floating:])]
+    return np.concatenate(parts).astype(structure_of.dtype)
 
 
 def repeated_charts(charts: Charts, moves: np.ndarray) -> Charts:
@@ -54,4 +55,6 @@ def repeated_charts(charts: Charts, moves: np.ndarray) -> Charts:
     repeated = {name: np.concatenate([array] * copies) for name, array in charts._asdict().items() if name != "outline_start"}
     for name in ("center", "origin"):
         repeated[name] = repeated[name] + np.repeat(moves, structures, axis=0)
+    mapped = repeated["map"] >= 0
+    repeated["map"] = np.where(mapped, np.cumsum(mapped) - 1, -1)
     return Charts(**repeated, outline_start=np.concatenate([[0], np.cumsum(np.tile(corners, copies))]).astype(np.int64))

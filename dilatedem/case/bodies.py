@@ -41,7 +41,11 @@ class Body(Table):
     density: Positive | None = key(None, "kg/m3", "Density; that of `[ice]` unless given.")
     elastic_modulus: Positive | None = key(None, "Pa", "Young's modulus; that of `[ice]` unless given.")
     poisson_ratio: PoissonRatio | None = key(None, "", "Poisson's ratio; that of `[ice]` unless given.")
-    fixed: bool = key(False, "", "`true` holds the body where it is, whatever pushes it.")
+    fixed: bool = key(
+        False, "",
+        "`true` holds the body where it is, whatever pushes it; the load on it is recorded like that on a structure, as "
+        "`body_N`, N its number.",
+    )
 
     def faults(self) -> list[Fault]:
         found: list[Fault] = []

@@ -25,6 +25,7 @@ from dilatedem.keys import (
     key,
 )
 from dilatedem.structures import kinds
+from dilatedem.structures.held import name_of
 
 # Contact with a wall boundary is recorded under these names, so that no structure may take them.
 WALL_NAMES = ("wall_x_min", "wall_x_max", "wall_y_min", "wall_y_max")
@@ -221,9 +222,12 @@ class Case(Table):
     def _name_faults(self) -> list[Fault]:
         found: list[Fault] = []
         first: dict[str, int] = {}
+        held = {name_of(number) for number, body in enumerate(self.body) if body.fixed}
         for i, structure in enumerate(self.structure):
             if structure.name in WALL_NAMES:
                 found.append((("structure", i, "name"), "is kept for a wall of the domain; choose another"))
+            elif structure.name in held:
+                found.append((("structure", i, "name"), "is kept for a fixed [[body]]; choose another"))
             elif structure.name in first:
                 other = f"structure.{first[structure.name]}"
                 text = f"is the name of {other} too; give each structure one of its own"

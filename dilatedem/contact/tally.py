@@ -22,7 +22,7 @@ def book_contact(k, part, dt, structure_of, shapes, contact, pairs, tally):
         for term in range(TERMS):
             pairs.cost[k, term] = 0.0
         return
-    on_structure, mode = 1 if structure_of[pairs.b[k]] >= 0 else 0, pairs.mode[k]
+    on_structure, mode = 1 if structure_of[pairs.b[k]] >= 0 or structure_of[pairs.a[k]] >= 0 else 0, pairs.mode[k]
     tally.mode_steps[part, on_structure, mode] += 1.0
     tally.mode_impulse[part, on_structure, mode] += pairs.normal_force[k] * dt
     tally.mode_force[part, on_structure, mode] = max(tally.mode_force[part, on_structure, mode], pairs.normal_force[k])

@@ -36,9 +36,12 @@ class Record(Observer):
         simulation, impulse = self.simulation, self.simulation.state.loads.impulse_map
         maps = []
         for s, structure in enumerate(simulation.scene.structures):
-            chart, (low, high) = structure.chart, simulation.model.charts.heights[s]
+            if structure.chart is None:
+                continue
+            chart, charts = structure.chart, simulation.model.charts
+            low, high = charts.heights[s]
             maps.append(LoadMap(
-                structure=structure.name, kind=structure.about.kind, impulse=impulse[s].copy(), place=chart.place,
+                structure=structure.name, kind=structure.about.kind, impulse=impulse[charts.map[s]].copy(), place=chart.place,
                 label=chart.label, zero=chart.zero, edges=chart.edges(PLACE_BINS),
                 height_edges=np.linspace(low, high, HEIGHT_BINS + 1), duration_s=simulation.time_s,
                 center=structure.about.place[:2] if chart.origin is None else chart.origin, radius=chart.radius, axis=chart.axis,

@@ -7,12 +7,12 @@ import numpy as np
 from dilatedem.output.schedule import Schedule
 from dilatedem.output.tables import Table
 from dilatedem.state.clock import NEVER
-from dilatedem.state.loads import WINDOWS, Loads, Windows
+from dilatedem.state.loads import Loads, Windows
 
 
 def schedule_windows(windows: Windows, schedule: Schedule, step: int) -> int:
     """Say when the windows after `step` end, while none waits; returns the step at which there is no room for more."""
-    due = schedule.due_after(step, WINDOWS)
+    due = schedule.due_after(step, len(windows.steps))
     windows.due[:] = NEVER
     windows.due[: len(due)] = due
     return int(due[-1]) if len(due) else NEVER

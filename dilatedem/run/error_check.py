@@ -204,7 +204,7 @@ def replay(simulation, steps: int, parts: int, asked: Callable[[], bool]) -> dic
     state = replace(
         simulation.state, bodies=Bodies(*(values.copy() for values in copy.bodies)),
         pairs=unpacked(copy.pairs, 2 * len(copy.pairs.a) + 64), ledger=empty_ledger(len(simulation.state.ledger.departed_work)),
-        loads=empty_loads(len(loads.step_contacts)), clock=clock_at(copy.step * simulation.dt),
+        loads=empty_loads(len(loads.step_contacts), len(loads.impulse_map)), clock=clock_at(copy.step * simulation.dt),
     )  # fmt: skip
     again = replace(simulation, state=state, dt=simulation.dt / parts)
     left = steps * parts

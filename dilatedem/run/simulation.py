@@ -92,9 +92,10 @@ class Simulation:
         critical = critical_step(model, bodies)
         dt = time_step(case, critical)
         span = free_span(case, dt)
+        loads = empty_loads(len(scene.structures), int(model.charts.map.max(initial=-1)) + 1)
         state = State(
             Ids(np.arange(scene.count)), bodies, empty_pairs(PAIRS_PER_BODY * scene.count + 64), empty_ledger(len(WORKS)),
-            empty_loads(len(scene.structures)), clock_at_start(), Watch(dt, span) if case.time.error_check else None,
+            loads, clock_at_start(), Watch(dt, span) if case.time.error_check else None,
         )  # fmt: skip
         return cls(case, scene, model, state, dt, critical, span, threads)
 

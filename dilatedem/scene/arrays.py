@@ -12,6 +12,7 @@ from dilatedem.state.bodies import Bodies, Solids, bodies_at_rest
 from dilatedem.state.charts import Along, Charts
 from dilatedem.state.model import Model
 from dilatedem.state.setting import CONTACT_SETTINGS, ContactSetting, Surroundings
+from dilatedem.structures.held import HeldBody
 from dilatedem.structures.kind import Part, perimeter
 from dilatedem.water.loads import WORKS, load_setting
 
@@ -31,7 +32,7 @@ def build_model(case: Case, scene: Scene) -> Model:
     _require_one_image(case, shapes.reach[: scene.count], cores, periodic)
     return Model(
         floating=scene.count,
-        structure_of=np.concatenate([np.full(scene.count, -1), _numbers(scene)]).astype(np.int64),
+        structure_of=np.concatenate([_held(scene), _numbers(scene)]).astype(np.int64),
         shapes=shapes,
         hulls=pack_hulls(scene.shapes, scene.order),
         solids=_solids(case, scene),
@@ -49,6 +50,15 @@ def _parts(scene: Scene) -> list[Part]:
 def _numbers(scene: Scene) -> np.ndarray:
     """The structure that each part belongs to, by number."""
     return np.repeat(np.arange(len(scene.structures)), [len(structure.parts) for structure in scene.structures])
+
+
+def _held(scene: Scene) -> np.ndarray:
+    """The structure that each body is by itself, being held fast; -1 = it is none."""
+    found = np.full(scene.count, -1)
+    for s, structure in enumerate(scene.structures):
+        if isinstance(structure.about, HeldBody):
+            found[structure.about.number] = s
+    return found
 
 
 def _contact_setting(case: Case) -> ContactSetting:
@@ -120,16 +130,21 @@ def initial_bodies(case: Case, scene: Scene, model: Model) -> Bodies:
 def _pack_charts(case: Case, scene: Scene) -> Charts:
     charts = [structure.chart for structure in scene.structures]
     count = len(charts)
-    outlines = [np.zeros((0, 2)) if chart.outline is None else chart.outline for chart in charts]
-    origin, axis, length = np.zeros((count, 3)), np.zeros((count, 3)), np.zeros(count)
-    for s, chart in enumerate(charts):
+    mapped = np.array([chart is not None for chart in charts], np.bool_)
+    outlines = [np.zeros((0, 2)) if chart is None or chart.outline is None else chart.outline for chart in charts]
+    along, length = np.zeros(count, np.int64), np.zeros(count)
+    origin, axis = np.zeros((count, 3)), np.zeros((count, 3))
+    for s in np.flatnonzero(mapped):
+        chart = charts[s]
+        along[s] = chart.along
         if chart.along == Along.LINE:
             origin[s], axis[s], length[s] = chart.origin, chart.axis, chart.half
         elif chart.along == Along.OUTLINE:
             length[s] = perimeter(chart.outline)
     return Charts(
         center=np.reshape([structure.about.place for structure in scene.structures], (-1, 3)),
-        along=np.array([chart.along for chart in charts], np.int64),
+        map=np.where(mapped, np.cumsum(mapped) - 1, -1),
+        along=along,
         origin=origin,
         axis=axis,
         length=length,

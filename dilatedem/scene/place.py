@@ -17,6 +17,7 @@ from dilatedem.geometry.polyhedron import convex_hull, prism
 from dilatedem.geometry.shapes import BodyShape
 from dilatedem.numerics.frames import matrix_from_quaternion, quaternion_from_rotation_vector
 from dilatedem.state.storage import MOST_CORNERS
+from dilatedem.structures.held import HeldBody
 from dilatedem.structures.kind import Chart, Part, Structure
 from dilatedem.structures.plane import Plane
 
@@ -42,9 +43,9 @@ class PlacedBody:
 class PlacedStructure:
     """A structure, its bodies, and how its load map is laid out."""
 
-    about: Structure
+    about: Structure | HeldBody
     parts: list[Part]
-    chart: Chart
+    chart: Chart | None
 
     @property
     def name(self) -> str:
@@ -56,7 +57,7 @@ class Scene:
     """All n bodies of a case in place at t = 0, and its structures (those of the case, then the domain's walls).
 
     Bodies are numbered from 0: those of the case's `[[body]]` list in their order, then the generated floes. Structures whose parts
-    are half spaces come last, as their bodies do.
+    are half spaces come last, as their bodies do; then bodies of the list that are held fast.
     """
 
     explicit: int  # bodies of the list
@@ -130,7 +131,7 @@ def _scene(case: Case, explicit: list[PlacedBody], field: FloeField, structures:
         outlines=plan.Outlines.of([*(body.outline for body in explicit), *field.outlines]) if explicit else field.outlines,
         plan_area=np.concatenate([[body.plan_area for body in explicit], field.plan_area]),
         density=np.concatenate([[body.density for body in case.body], np.full(len(field.outlines), case.ice.density)]),
-        structures=structures,
+        structures=[*structures, *_held(case, explicit)],
         field=field,
     )
 
@@ -167,6 +168,12 @@ def _structures(case: Case) -> list[PlacedStructure]:
         except ValueError as fault:
             raise CaseError(f"structure.{number}: {fault}") from fault
     return sorted(placed, key=lambda structure: any(part.is_half_space for part in structure.parts))
+
+
+def _held(case: Case, explicit: list[PlacedBody]) -> list[PlacedStructure]:
+    """The bodies of the list that are held fast, as what they are to the record of loads."""
+    held = [HeldBody(i, body.position) for i, body in enumerate(explicit) if case.body[i].fixed]
+    return [PlacedStructure(body, [], None) for body in held]
 
 
 def _walls(case: Case) -> list[Structure]:

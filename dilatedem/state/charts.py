@@ -18,6 +18,7 @@ class Charts(NamedTuple):
     """Of s structures; their outlines in plan stand one after the other."""
 
     center: np.ndarray  # (s, 3) m, about which moments are stated
+    map: np.ndarray  # (s,) number of the load map, -1 = none
     along: np.ndarray  # (s,) Along
     origin: np.ndarray  # (s, 3) m, of a line
     axis: np.ndarray  # (s, 3) unit vector of a line

@@ -9,8 +9,8 @@ from dilatedem.state.modes import MODE_COUNT
 
 PLACE_BINS = 72  # of a load map: around a pile 5 degrees each
 HEIGHT_BINS = 20
-#: windows of loads that wait to be written, at most
-WINDOWS = 1000
+#: windows of loads that wait to be written, at most; fewer where so many structures' loads in them come to more numbers
+WINDOWS, MOST_WAITING = 1000, 200_000
 
 
 class Loads(NamedTuple):
@@ -22,7 +22,7 @@ class Loads(NamedTuple):
     contact_sum: np.ndarray  # (s,) contacts, summed over steps
     step_load: np.ndarray  # (s, 6) of this step
     step_contacts: np.ndarray  # (s,) of this step
-    impulse_map: np.ndarray  # (s, PLACE_BINS, HEIGHT_BINS) normal impulse, N s, as `state.charts` lays it out
+    impulse_map: np.ndarray  # (maps, PLACE_BINS, HEIGHT_BINS) normal impulse, N s, as `state.charts` lays it out
     mode_steps: np.ndarray  # (2, MODE_COUNT) contact steps, ice on ice and ice on structure
     mode_impulse: np.ndarray  # (2, MODE_COUNT) N s
     mode_force: np.ndarray  # (2, MODE_COUNT) N, largest normal force
@@ -36,26 +36,27 @@ class Windows(NamedTuple):
     """
 
     count: np.ndarray  # (1,) windows that wait
-    due: np.ndarray  # (WINDOWS + 1,) step at which each of them ended, then those at which the next will
-    steps: np.ndarray  # (WINDOWS,) steps in it
-    sum: np.ndarray  # (WINDOWS, s, 6) and so on as in `Loads`
-    extreme: np.ndarray  # (WINDOWS, s, 5)
-    contacts: np.ndarray  # (WINDOWS, s)
+    due: np.ndarray  # (room + 1,) step at which each of them ended, then those at which the next will
+    steps: np.ndarray  # (room,) steps in it
+    sum: np.ndarray  # (room, s, 6) and so on as in `Loads`
+    extreme: np.ndarray  # (room, s, 5)
+    contacts: np.ndarray  # (room, s)
 
 
-def empty_loads(structures: int) -> Loads:
-    """Nothing recorded yet."""
+def empty_loads(structures: int, maps: int) -> Loads:
+    """Nothing recorded yet of so many structures, and so many load maps."""
     s = structures
     per_mode = (np.zeros((2, MODE_COUNT)) for _ in range(4))
     return Loads(
         np.zeros(1, np.int64), np.zeros((s, 6)), np.zeros((s, 5)), np.zeros(s, np.int64), np.zeros((s, 6)), np.zeros(s, np.int64),
-        np.zeros((s, PLACE_BINS, HEIGHT_BINS)), *per_mode,
+        np.zeros((maps, PLACE_BINS, HEIGHT_BINS)), *per_mode,
     )  # fmt: skip
 
 
 def no_windows(structures: int) -> Windows:
     """None has ended, and none will."""
+    room = max(2, min(WINDOWS, MOST_WAITING // max(1, structures)))
     return Windows(
-        np.zeros(1, np.int64), np.full(WINDOWS + 1, NEVER), np.zeros(WINDOWS, np.int64), np.zeros((WINDOWS, structures, 6)),
-        np.zeros((WINDOWS, structures, 5)), np.zeros((WINDOWS, structures), np.int64),
+        np.zeros(1, np.int64), np.full(room + 1, NEVER), np.zeros(room, np.int64), np.zeros((room, structures, 6)),
+        np.zeros((room, structures, 5)), np.zeros((room, structures), np.int64),
     )  # fmt: skip

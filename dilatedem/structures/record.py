@@ -3,7 +3,7 @@
 from math import atan2, pi, sqrt
 
 from dilatedem.jit import device, item
-from dilatedem.numerics.vector import add, cross, load, sub
+from dilatedem.numerics.vector import add, cross, load, scale, sub
 from dilatedem.state.charts import Along
 from dilatedem.state.loads import HEIGHT_BINS, PLACE_BINS
 
@@ -19,10 +19,15 @@ def load_structures(count, dt, structure_of, charts, bodies, pairs, workspace, l
             loads.step_load[s, m] = 0.0
     for w in range(count):
         k = workspace.at_structure[w]
-        if pairs.overlap[k] > 0.0:
-            b, impulse = pairs.b[k], pairs.normal_force[k] * dt
-            arm, force, couple = load(pairs.arm, k), load(pairs.force, k), load(pairs.couple, k)
-            _load_structure(structure_of[b], load(bodies.position, b), arm, force, couple, impulse, charts, loads)
+        if pairs.overlap[k] <= 0.0:
+            continue
+        a, b, impulse = pairs.a[k], pairs.b[k], pairs.normal_force[k] * dt
+        force, couple = load(pairs.force, k), load(pairs.couple, k)
+        if structure_of[b] >= 0:
+            _load_structure(structure_of[b], load(bodies.position, b), load(pairs.arm, k), force, couple, impulse, charts, loads)
+        if structure_of[a] >= 0:
+            force, couple = scale(-1.0, force), scale(-1.0, couple)
+            _load_structure(structure_of[a], load(bodies.position, a), load(pairs.point, k), force, couple, impulse, charts, loads)
 
 
 @item
@@ -36,6 +41,8 @@ def _load_structure(s, position, arm, force, couple, impulse, charts, loads):
     for m in range(3):
         loads.step_load[s, m] += force[m]
         loads.step_load[s, 3 + m] += moment[m]
+    if charts.map[s] < 0:
+        return
     height = position[2] + arm[2]
     along = charts.along[s]
     if along == LINE:
@@ -49,7 +56,7 @@ def _load_structure(s, position, arm, force, couple, impulse, charts, loads):
     low, high = charts.heights[s, 0], charts.heights[s, 1]
     i = min(max(int((place + 1.0) * 0.5 * PLACE_BINS), 0), PLACE_BINS - 1)
     j = min(max(int((height - low) / (high - low) * HEIGHT_BINS), 0), HEIGHT_BINS - 1)
-    loads.impulse_map[s, i, j] += impulse
+    loads.impulse_map[charts.map[s], i, j] += impulse
 
 
 @device

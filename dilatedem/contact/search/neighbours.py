@@ -207,7 +207,7 @@ def awake_pairs(count, structure_of, bodies, pairs, workspace):
         if path[a] + path[b] >= pairs.wake[k]:
             awake[found] = k
             found += 1
-            if structure_of[b] >= 0:
+            if structure_of[b] >= 0 or structure_of[a] >= 0:
                 workspace.at_structure[at_structure] = k
                 at_structure += 1
     return found, at_structure

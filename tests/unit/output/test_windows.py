@@ -15,7 +15,7 @@ STEPS = 10  # of a window
 def kept(names: list[str], count: int, path: Path, every: int) -> dict[str, dict]:
     """`count` windows of made-up loads in forces.csv, worked up after every so many; returns the headline loads."""
     random, peaks = np.random.default_rng(4), {}
-    windows, loads = no_windows(len(names)), empty_loads(len(names))
+    windows, loads = no_windows(len(names)), empty_loads(len(names), len(names))
     with Table(path, FORCES_COLUMNS) as table:
         for number in range(1, count + 1):
             loads.steps[0] = STEPS
@@ -54,7 +54,7 @@ def test_many_windows_at_once_come_out_as_one_by_one(names, every, tmp_path):
 
 
 def test_means_are_over_the_steps_of_each_window(tmp_path):
-    windows, loads, peaks = no_windows(1), empty_loads(1), {}
+    windows, loads, peaks = no_windows(1), empty_loads(1, 1), {}
     with Table(tmp_path / "forces.csv", FORCES_COLUMNS) as table:
         for steps, end in ((4, 4), (2, 6)):  # the last window of a run may be shorter
             loads.steps[0], loads.window_sum[:], loads.contact_sum[:] = steps, 8.0, 6

@@ -180,7 +180,7 @@ def test_a_copy_of_the_pairs_holds_all_of_them():
 
 def watched(peaks: dict[float, float], *, end: float, dt: float = 1e-3) -> Watch:
     """A watch that looked every 0.01 s and found these loads (time [s] -> N) on the second of two structures."""
-    watch, loads = Watch(dt), empty_loads(2)
+    watch, loads = Watch(dt), empty_loads(2, 2)
     windows = no_windows(2)
     state = SimpleNamespace(clock=clock_at_start(), loads=loads, bodies=bodies_at_rest(1, 1), pairs=empty_pairs(3))
     for look in range(round(end / 0.01) + 1):
