@@ -1,11 +1,13 @@
 """Reading a case: TOML text, overrides on top, the schema's verdict, every fault in one message."""
 
+import copy
 import difflib
 import sys
 import tomllib
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path as FilePath
+from typing import Any
 
 from pydantic import ValidationError
 
@@ -51,6 +53,26 @@ def read(path: str | FilePath) -> Source:
         raise CaseError(f"{name}: cannot be read: {error.strerror}") from None
 
 
+def case_from(source: str | FilePath | dict | Case, overrides: Mapping[str, Any]) -> Case:
+    """A case from a file, from a dictionary that is laid out like one, or from another case, with overrides laid over it.
+
+    overrides: values by dotted key, or dictionaries of them by table. Fails as `load` does.
+    """
+    laid_over = [Override(key, value, f"override {key}") for key, value in _flat(overrides)]
+    if isinstance(source, dict | Case):
+        data = source.model_dump(exclude_none=True) if isinstance(source, Case) else copy.deepcopy(source)
+        return _validated(Source("case", ""), data, laid_over)
+    return build(read(source), laid_over)
+
+
+def _flat(overrides: Mapping[str, Any], before: str = "") -> Iterator[tuple[str, Any]]:
+    for key, value in overrides.items():
+        if isinstance(value, Mapping):
+            yield from _flat(value, f"{before}{key}.")
+        else:
+            yield f"{before}{key}", value.tolist() if hasattr(value, "tolist") else value
+
+
 def build(source: Source, laid_over: Sequence[Override] = ()) -> Case:
     """The case of a text, with overrides laid over it in order. Fails as `load` does."""
     try:
@@ -59,6 +81,11 @@ def build(source: Source, laid_over: Sequence[Override] = ()) -> Case:
         raise CaseError(f"{source.name}: is nested too deeply to be a case") from None
     except ValueError as error:
         raise CaseError(_syntax(source, str(error))) from None
+    return _validated(source, data, laid_over)
+
+
+def _validated(source: Source, data: dict, laid_over: Sequence[Override]) -> Case:
+    """The case of `data`, which the overrides change. Fails as `load` does."""
     written = [(apply(data, override), override) for override in laid_over]
     try:
         return Case.model_validate(data)

@@ -1,14 +1,17 @@
 """From one due step to the next until the end of a run, an interruption or a fault."""
 
-import math
+import os
 import time
 from pathlib import Path
 
+from dilatedem.case.load import case_from
 from dilatedem.case.schema import Case
 from dilatedem.errors import CaseError, Interrupted, SimulationStopped
 from dilatedem.jit import start_threads
 from dilatedem.output import folder
 from dilatedem.output.progress import Progress
+from dilatedem.results.run import Run
+from dilatedem.run.faults import fault
 from dilatedem.run.interruption import Interruption
 from dilatedem.run.observers import RunFolder
 from dilatedem.run.pace import total_steps
@@ -46,6 +49,20 @@ def run(case: Case, out: Path, *, threads: int = 1, resume: bool = False, overwr
                 files.observe()
             _loop(simulation, files, steps, progress, interruption)
     return out
+
+
+def run_case(
+    case, out=None, *, threads: int = 1, resume: bool = False, overwrite: bool = False, quiet: bool = True, **overrides
+) -> Run:
+    """Simulate a case into a run folder and open its results; what `dilatedem run` does.
+
+    case: path of a case file, a dictionary laid out like one, or a `Case`; out: the folder, runs/NAME for NAME.toml unless given;
+    overrides: values by dotted key, `**{"water.velocity": [0.5, 0.0]}`, or tables, `water={"velocity": [0.5, 0.0]}`.
+    Raises CaseError (nothing written), SimulationStopped or Interrupted (state saved).
+    """
+    named = isinstance(case, str | os.PathLike)
+    folder = Path(out) if out is not None else Path("runs", Path(case).stem if named else "case")
+    return Run(run(case_from(case, overrides), folder, threads=threads, resume=resume, overwrite=overwrite, quiet=quiet))
 
 
 def compile_kernels(threads: int = 1, model: str = "liu2015") -> None:
@@ -91,7 +108,7 @@ def _loop(simulation: Simulation, files: RunFolder, steps: int, progress: Progre
 
 def _stop_on_fault(simulation: Simulation, files: RunFolder, status: Status) -> None:
     if status != Status.DONE:
-        sentence = fault(simulation, status)
+        sentence = f"{fault(simulation, status)}; the state is saved; try a smaller time.step or check the case"
         files.stop(sentence)
         raise SimulationStopped(sentence)
 
@@ -102,23 +119,3 @@ def _headline(simulation: Simulation, steps: int, layer: str) -> str:
         f"{simulation.scene.count} bodies, {steps} steps of {simulation.dt:.3g} s = {ratio:.3g} of the critical step "
         f"({simulation.critical:.3g} s); {f'{simulation.threads} threads ({layer})' if layer else '1 thread'}"
     )
-
-
-def fault(simulation: Simulation, status: Status) -> str:
-    """One sentence: which bodies, when, why, what to do."""
-    clock = simulation.state.clock
-    names = [_body_name(simulation, int(i)) for i in clock.culprit if i >= 0]
-    measure = float(clock.measure[0])
-    if status == Status.TOO_DEEP:
-        cause = f"{names[0]} and {names[1]} overlap by {measure:.3g} m, more than their rounded edges can mean"
-    else:
-        moved = f"{measure:.3g} m" if math.isfinite(measure) else "without bound"
-        cause = f"{names[0]} moved {moved} in one step"
-    return f"stopped at t = {simulation.time_s:.6g} s: {cause}; the state is saved; try a smaller time.step or check the case"
-
-
-def _body_name(simulation: Simulation, body: int) -> str:
-    if body >= simulation.model.floating:
-        return f'structure "{simulation.scene.structures[simulation.model.structure_of[body]].name}"'
-    x, y = simulation.state.bodies.position[body, :2]
-    return f"body {simulation.state.ids.body[body]} at ({x:.2f}, {y:.2f})"

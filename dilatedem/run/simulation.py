@@ -5,14 +5,17 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from dilatedem.case.load import case_from
 from dilatedem.case.schema import Case
-from dilatedem.errors import CaseError
+from dilatedem.errors import CaseError, SimulationStopped
 from dilatedem.events.event import Event
 from dilatedem.events.kinds import events_of
-from dilatedem.jit import Alone, Team, is_cached
+from dilatedem.jit import Alone, Team, is_cached, start_threads
 from dilatedem.motion.timestep import critical_step
 from dilatedem.run.error_check import Watch
+from dilatedem.run.faults import fault
 from dilatedem.run.pace import free_span, time_step
+from dilatedem.run.views import Floes, Structures
 from dilatedem.scene.arrays import build_model, initial_bodies
 from dilatedem.scene.place import Scene, compose
 from dilatedem.state.bodies import Bodies, Ids
@@ -27,6 +30,8 @@ from dilatedem.water.loads import WORKS, works_of
 
 #: room for pairs at the start, per body; it grows where it is not enough
 PAIRS_PER_BODY = 8
+#: steps by which a time may be missed, as sums of decimal numbers are
+ROUND_OFF = 1e-6
 
 
 @dataclass
@@ -98,6 +103,56 @@ class Simulation:
             loads, clock_at_start(), Watch(dt, span) if case.time.error_check else None,
         )  # fmt: skip
         return cls(case, scene, model, state, dt, critical, span, threads)
+
+    @classmethod
+    def from_case(cls, case, *, threads: int = 1, **overrides) -> "Simulation":
+        """A case at t = 0: the path of a case file, a dictionary laid out like one, or a `Case`.
+
+        overrides: values by dotted key, `**{"water.velocity": [0.5, 0.0]}`, or tables, `water={"velocity": [0.5, 0.0]}`.
+        Raises CaseError for what is wrong with it.
+        """
+        try:
+            start_threads(threads)
+        except ValueError as error:
+            raise CaseError(str(error)) from error
+        return cls.of_case(case_from(case, overrides), threads=threads)
+
+    def step(self, count: int = 1) -> None:
+        """Go on by so many time steps of `dt`. Raises SimulationStopped where it cannot."""
+        goal = int(self.state.clock.step[0]) + count
+        while (now := int(self.state.clock.step[0])) < goal:
+            status = self.advance(min(goal, self.next_event(now)) - now)
+            if status != Status.DONE:
+                raise SimulationStopped(fault(self, status))
+            self.let_happen()
+
+    def run(self, until: float | None = None) -> None:
+        """Go on to the first step at or after the time `until` [s], the case's duration unless given; earlier times change nothing.
+
+        Raises SimulationStopped where it cannot.
+        """
+        until = self.case.time.duration if until is None else until
+        self.step(max(0, math.ceil((until - self.time) / self.dt - ROUND_OFF)))
+
+    @property
+    def time(self) -> float:
+        """Simulated time [s]."""
+        return self.time_s
+
+    @property
+    def floes(self) -> Floes:
+        """The floating bodies at this moment."""
+        return Floes(self)
+
+    @property
+    def structures(self) -> Structures:
+        """The structures by name, and the load on each in the last step."""
+        return Structures(self)
+
+    @property
+    def energy(self) -> dict[str, float]:
+        """The terms of the energy ledger at this moment [J], by the names that energy.csv has for them."""
+        return self.energies()
 
     @property
     def time_s(self) -> float:

@@ -1,0 +1,99 @@
+"""What a user of a simulation looks at: its floes and its structures at this moment, in copies that later steps do not change."""
+
+from collections.abc import Iterator, Mapping
+
+import numpy as np
+
+from dilatedem.numerics.frames import matrix_from_quaternion
+from dilatedem.results.snapshots import plan_outlines
+
+
+class Floes:
+    """The n floating bodies that there are now, explicit ones and those held fast included; every array has a row for each."""
+
+    def __init__(self, simulation):
+        self._model, self._bodies, self._ids = simulation.model, simulation.state.bodies, simulation.state.ids
+
+    def __len__(self) -> int:
+        return self._model.floating
+
+    def _rows(self, values: np.ndarray) -> np.ndarray:
+        return values[: self._model.floating].copy()
+
+    @property
+    def id(self) -> np.ndarray:
+        """(n,) numbers; a body keeps its own when others leave."""
+        return self._ids.body.copy()
+
+    @property
+    def position(self) -> np.ndarray:
+        """(n, 3) [m] of the centroids; not wrapped at periodic sides."""
+        return self._rows(self._bodies.position)
+
+    @property
+    def orientation(self) -> np.ndarray:
+        """(n, 4) unit quaternions, scalar first, body to world."""
+        return self._rows(self._bodies.orientation)
+
+    @property
+    def velocity(self) -> np.ndarray:
+        """(n, 3) [m/s]."""
+        return self._rows(self._bodies.velocity)
+
+    @property
+    def angular_velocity(self) -> np.ndarray:
+        """(n, 3) [rad/s] about the world's axes."""
+        return self._rows(self._bodies.angular_velocity)
+
+    @property
+    def contact_force(self) -> np.ndarray:
+        """(n, 3) [N] of all contacts together."""
+        return self._rows(self._bodies.contact_force)
+
+    @property
+    def mass(self) -> np.ndarray:
+        """(n,) [kg]."""
+        return self._rows(self._model.solids.mass)
+
+    @property
+    def outline(self) -> list[np.ndarray]:
+        """n outlines (k, 2) [m] as seen from above."""
+        hulls = self._model.hulls
+        owner = np.repeat(np.arange(len(self)), np.diff(hulls.vertex_start))
+        corners = np.einsum("nij,nj->ni", matrix_from_quaternion(self.orientation)[owner], hulls.vertex)
+        return plan_outlines((corners + self.position[owner])[:, :2], owner, len(self))
+
+
+class StructureNow:
+    """One structure at this moment."""
+
+    def __init__(self, simulation, number: int):
+        self._loads, self._charts, self._number = simulation.state.loads, simulation.model.charts, number
+        self.name = simulation.scene.structures[number].name
+
+    @property
+    def load(self) -> np.ndarray:
+        """(6,) force [N] and moment about the structure's centre at z = 0 [N m] of the ice on it in the last step."""
+        return self._loads.step_load[self._number].copy()
+
+    @property
+    def contacts(self) -> int:
+        """Contacts with it in the last step."""
+        return int(self._loads.step_contacts[self._number])
+
+
+class Structures(Mapping):
+    """All structures by name."""
+
+    def __init__(self, simulation):
+        self._simulation = simulation
+        self._numbers = {structure.name: number for number, structure in enumerate(simulation.scene.structures)}
+
+    def __getitem__(self, name: str) -> StructureNow:
+        return StructureNow(self._simulation, self._numbers[name])
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._numbers)
+
+    def __len__(self) -> int:
+        return len(self._numbers)
