@@ -3,11 +3,11 @@
 from math import sqrt
 from typing import NamedTuple
 
-from dilatedem.contact.kinematics import relative_velocity
 from dilatedem.contact.laws import carry, rubbed
 from dilatedem.contact.spring import carried_over, slide, viscous_share
 from dilatedem.jit import item
 from dilatedem.numerics.vector import along, dot, load, scale, sub
+from dilatedem.state.response import relative_velocity
 
 
 class Held(NamedTuple):

@@ -6,6 +6,7 @@ from dilatedem.motion.integrate import kinetic_energy
 from dilatedem.numerics.rotation import rotation_matrix
 from dilatedem.numerics.vector import load
 from dilatedem.state.ledger import BUOYANCY, ELASTIC, GRAVITY, KINETIC
+from dilatedem.state.response import is_free
 from dilatedem.water.floating import submerge
 
 
@@ -22,7 +23,7 @@ def book_energies(model, bodies, pairs, workspace, ledger):
     if setting.water:
         submerge(workspace.everybody, 0, floating, hulls, bodies, workspace, 0)
     for i in range(floating):
-        if solids.inverse_mass[i] == 0.0:
+        if not is_free(i, solids):
             continue
         kinetic += kinetic_energy(i, solids, bodies)
         z = bodies.position[i, 2]

@@ -8,6 +8,7 @@ world axes as its state: without torque |L| cannot change.
 from dilatedem.jit import device, item
 from dilatedem.numerics.rotation import rotation_matrix, to_body, to_world, turned
 from dilatedem.numerics.vector import along, cross, dot, load, store
+from dilatedem.state.response import is_free, pushed
 
 
 @item
@@ -33,7 +34,7 @@ def _middle(i, dt, solids, bodies, R):
 
     R: its rotation matrix. The spin is in the body frame, from Euler's equation.
     """
-    velocity = along(load(bodies.velocity, i), 0.5 * dt * solids.inverse_mass[i], load(bodies.force, i))
+    velocity = pushed(i, solids, load(bodies.velocity, i), 0.5 * dt, load(bodies.force, i))
     momentum = along(load(bodies.angular_momentum, i), 0.5 * dt, load(bodies.torque, i))
     own = to_body(R, momentum)
     own = along(own, 0.5 * dt, cross(own, _times(solids.inverse_inertia, i, own)))
@@ -66,7 +67,7 @@ def drift(i, dt, solids, bodies, reach, frame):
     R = rotation_matrix(q[i, 0], q[i, 1], q[i, 2], q[i, 3])
     middle, momentum, spin = _middle(i, dt, solids, bodies, R)
     store(bodies.middle_velocity, i, middle)
-    store(bodies.velocity, i, along(middle, 0.5 * dt * solids.inverse_mass[i], load(bodies.force, i)))
+    store(bodies.velocity, i, pushed(i, solids, middle, 0.5 * dt, load(bodies.force, i)))
     store(bodies.position, i, along(load(bodies.position, i), dt, middle))
 
     store(bodies.middle_angular_momentum, i, momentum)
@@ -80,8 +81,7 @@ def drift(i, dt, solids, bodies, reach, frame):
 @item
 def kick(i, dt, solids, bodies):
     """The second half of the kick of body i, by the loads at the end of the step; `complete_spin` turns it into a spin."""
-    speed_up = 0.5 * dt * solids.inverse_mass[i]
-    store(bodies.velocity, i, along(load(bodies.middle_velocity, i), speed_up, load(bodies.force, i)))
+    store(bodies.velocity, i, pushed(i, solids, load(bodies.middle_velocity, i), 0.5 * dt, load(bodies.force, i)))
     store(bodies.angular_momentum, i, along(load(bodies.middle_angular_momentum, i), 0.5 * dt, load(bodies.torque, i)))
 
 
@@ -94,7 +94,7 @@ def complete_spin(i, solids, bodies):
 @device
 def kinetic_energy(i, solids, bodies):
     """J; zero for a fixed body."""
-    if solids.inverse_mass[i] == 0.0:
+    if not is_free(i, solids):
         return 0.0
     v = load(bodies.velocity, i)
     turning = dot(load(bodies.angular_momentum, i), load(bodies.angular_velocity, i))

@@ -9,6 +9,7 @@ be missed: a busy body that is about to leave its room (something hit it) ends t
 
 from dilatedem.jit import device
 from dilatedem.motion.integrate import travel
+from dilatedem.state.response import is_free
 
 #: a body that moves farther than this share of the pair list's limit in one step has left the realm of the step size
 LONGEST_MOVE = 0.1
@@ -44,7 +45,7 @@ def _give_room(time, model, bodies, pairs, workspace):
     longest = 0.0
     for i in range(len(path)):
         way = adrift
-        if solids.inverse_mass[i] > 0.0:
+        if is_free(i, solids):
             way = travel(i, time, solids, bodies, model.shapes.reach[i], pairs.frame)
             longest = way if not way <= longest else longest  # also where it is no number
         room[i] = ROOM * way + spare

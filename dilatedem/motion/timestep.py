@@ -8,11 +8,11 @@ from math import sqrt
 
 import numpy as np
 
-from dilatedem.contact.kinematics import mobility
 from dilatedem.contact.laws import law_of
 from dilatedem.jit import device
 from dilatedem.numerics.blocks import take
 from dilatedem.numerics.vector import load
+from dilatedem.state.response import is_free, mobility
 
 #: impact speed, as a share of sqrt(gravity x reach), for which contacts are laid out where nothing moves yet
 SETTLING_SPEED = 0.5
@@ -109,7 +109,7 @@ def assembled_frequency(solids, bodies, pairs, workspace):
     for k in range(pairs.count[0]):
         if pairs.overlap[k] > 0.0:
             tangent, normal, a, b = pairs.tangent[k], load(pairs.normal, k), pairs.a[k], pairs.b[k]
-            both = 2.0 if solids.inverse_mass[a] > 0.0 and solids.inverse_mass[b] > 0.0 else 1.0
+            both = 2.0 if is_free(a, solids) and is_free(b, solids) else 1.0
             stiffness[a] += both * tangent * mobility(a, solids, bodies.orientation, load(pairs.point, k), normal)
             stiffness[b] += both * tangent * mobility(b, solids, bodies.orientation, load(pairs.arm, k), normal)
     most = 0.0

@@ -15,7 +15,7 @@ from numba.core.registry import CPUDispatcher
 import dilatedem
 from dilatedem.jit import Alone, Team, by_type, device, is_cached, kernel
 
-KERNEL_PACKAGES = ("numerics", "contact", "water", "motion", "step", "structures")
+KERNEL_PACKAGES = ("numerics", "state", "contact", "water", "motion", "step", "structures")
 
 
 def compiled_functions() -> dict[str, CPUDispatcher]:

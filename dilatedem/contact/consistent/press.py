@@ -3,10 +3,10 @@
 from math import sqrt
 
 from dilatedem.contact.consistent.join import pose_energy
-from dilatedem.contact.kinematics import mobility, relative_velocity
 from dilatedem.contact.pressed import Pressed
 from dilatedem.jit import device, item
 from dilatedem.numerics.vector import along, cross, dot, load, scale, store, sub
+from dilatedem.state.response import mobility, relative_velocity
 
 #: share of the sum of the radii past which the distance of the cores means nothing to the energy: they are about to touch
 DEEPEST_SHARE = 0.95
@@ -41,7 +41,7 @@ def press_consistent(contact, k, dt, shapes, vertex, face_normal, solids, bodies
 
     Damping multiplies the elastic wrench by 1 + c (dW/dt)/F^2, never below 0, with c = xi sqrt(2 m*/W) F [N s/m]. For any law
     F = K overlap^p that is c sqrt(m* K) overlap^((p-1)/2) times the approach speed with the constant sqrt(2 (p+1)) xi:
-    restitution depends on xi alone. m*: what the bodies oppose at the centre of pressure, `kinematics.mobility`. Rocking, which
+    restitution depends on xi alone. m*: what the bodies oppose at the centre of pressure, `response.mobility`. Rocking, which
     changes W only to second order, meets the same dashpot spread over the patch: a couple -c J omega, J the second moments of the
     overlap. It cannot lift the patch: its arm stays within their root.
     """

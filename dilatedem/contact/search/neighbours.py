@@ -10,6 +10,7 @@ from math import sqrt
 from dilatedem.jit import device
 from dilatedem.numerics.vector import dot, load, sub
 from dilatedem.state.pairs import KEPT, ROW
+from dilatedem.state.response import is_free
 
 #: distance at which pairs enter the list, in units of the largest reach of a floating body. Larger: fewer rebuilds, longer list
 SKIN = 0.25
@@ -115,7 +116,7 @@ def find_pairs(model, bodies, pairs, spare, cells, clock):
                 c = gx * ny + gy
                 for m in range(start[c], start[c + 1]):
                     b = member[m]
-                    if b <= a or (solids.inverse_mass[a] == 0.0 and solids.inverse_mass[b] == 0.0):
+                    if b <= a or not (is_free(a, solids) or is_free(b, solids)):
                         continue
                     dx = position[b, 0] - position[a, 0]
                     dy = position[b, 1] - position[a, 1]
@@ -132,7 +133,7 @@ def find_pairs(model, bodies, pairs, spare, cells, clock):
                         spare.a[found] = a
                         found += 1
         for s in range(floating, floating + structures):
-            if solids.inverse_mass[a] > 0.0 and near_structure(shapes, position, a, s, surroundings, skin):
+            if is_free(a, solids) and near_structure(shapes, position, a, s, surroundings, skin):
                 if found == capacity:
                     return False
                 spare.b[found] = s

@@ -1,15 +1,37 @@
-"""How two bodies move at a point where they touch, and how easily they give way there."""
+"""How a body moves and what it opposes to a force: the one door to both, for contacts and for motion."""
 
 from dilatedem.jit import item
 from dilatedem.numerics.vector import add, along, cross, load, sub
 
 
 @item
+def is_free(i, solids):
+    """Whether body i moves under its loads; the others are held."""
+    return solids.inverse_mass[i] > 0.0
+
+
+@item
+def point_velocity(velocity, spin, i, lever):
+    """Velocity [m/s] of the point of body i at `lever` from its centroid."""
+    return add(load(velocity, i), cross(load(spin, i), lever))
+
+
+@item
 def relative_velocity(velocity, spin, a, b, point, arm):
     """Velocity of b against a [m/s] at `point` from the centroid of a, `arm` from that of b."""
-    va = add(load(velocity, a), cross(load(spin, a), point))
-    vb = add(load(velocity, b), cross(load(spin, b), arm))
-    return sub(vb, va)
+    return sub(point_velocity(velocity, spin, b, arm), point_velocity(velocity, spin, a, point))
+
+
+@item
+def pushed(i, solids, velocity, time, force):
+    """The velocity [m/s] that a force [N] makes of `velocity` in a time [s]."""
+    return along(velocity, time * solids.inverse_mass[i], force)
+
+
+@item
+def reduced_mass(a, b, solids):
+    """Mass [kg] with which two bodies, one of them free at least, oppose being pushed apart along the line of their centroids."""
+    return 1.0 / (solids.inverse_mass[a] + solids.inverse_mass[b])
 
 
 @item
