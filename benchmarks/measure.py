@@ -8,11 +8,12 @@ import numpy as np
 
 from benchmarks.machine import describe
 from benchmarks.scenes import MODELS, SCENES, settled, sized
-from benchmarks.timed_step import STAGES, timed
+from benchmarks.timed_step import timed
 from benchmarks.yardstick import coal_step
 from dilatedem.run.simulation import Simulation
 from dilatedem.state.clock import Status
 from dilatedem.state.pairs import unpacked
+from dilatedem.step.stages import STAGES
 
 #: steps before the first that is timed: friction springs that the copies of a scene start without
 WARMING = 100

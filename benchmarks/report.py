@@ -7,8 +7,8 @@ from benchmarks.plots import COST, STAGE
 from benchmarks.results import grouped
 from benchmarks.scenes import MODELS, SCENES
 from benchmarks.targets import targets
-from benchmarks.timed_step import STAGES
 from benchmarks.yardstick import PUBLISHED
+from dilatedem.step.stages import STAGES
 
 _HEAD = """# Benchmarks
 

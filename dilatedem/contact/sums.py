@@ -3,14 +3,14 @@
 Every sum is taken in the order of the pairs, so that results are the same for any number of threads.
 """
 
-from dilatedem.jit import device, prefetch
+from dilatedem.jit import item, prefetch
 from dilatedem.numerics.vector import accumulate, add, cross, load, scale
 
 #: pairs between the one whose results are asked for and the one that is summed
 AHEAD = 24
 
 
-@device
+@item
 def sum_contacts(chosen, first, last, awake, bodies, pairs, workspace):
     """Contact force and torque on the bodies chosen[first:last] (numbers in order).
 

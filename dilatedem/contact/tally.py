@@ -1,7 +1,7 @@
 """What contacts cost and showed: booked pair by pair in a fixed number of parts, so that sums do not depend on the threads."""
 
 from dilatedem.contact.laws import deepest
-from dilatedem.jit import device, item
+from dilatedem.jit import item
 from dilatedem.state.ledger import COSTS
 
 #: of the ledger, that contacts have
@@ -31,7 +31,7 @@ def book_contact(k, part, dt, structure_of, shapes, contact, pairs, tally):
         tally.deep[part] = k
 
 
-@device
+@item
 def close_tally(tally, ledger, loads, clock):
     """Bring a tally to the ledger, the contact statistics and the counts of work, part by part, and empty it."""
     for part in range(len(tally.deep)):
@@ -51,7 +51,7 @@ def close_tally(tally, ledger, loads, clock):
                 tally.mode_force[part, s, mode] = tally.mode_overlap[part, s, mode] = 0.0
 
 
-@device
+@item
 def too_deep(tally, pairs, clock):
     """Whether some overlap is past what the method can mean; its bodies go to `clock`."""
     for part in range(len(tally.deep)):

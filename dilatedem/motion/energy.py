@@ -1,7 +1,7 @@
 """The energies of an instant: with the running sums of `state.ledger.Ledger` they close the ledger of a run."""
 
 from dilatedem.contact.spring import length
-from dilatedem.jit import device
+from dilatedem.jit import item
 from dilatedem.motion.integrate import kinetic_energy
 from dilatedem.numerics.rotation import rotation_matrix
 from dilatedem.numerics.vector import load
@@ -10,7 +10,7 @@ from dilatedem.state.response import is_free
 from dilatedem.water.floating import submerge
 
 
-@device
+@item
 def book_energies(model, bodies, pairs, workspace, ledger):
     """Kinetic energy, energy of weight and of buoyancy, elastic energy of all contacts at this instant, to the ledger.
 

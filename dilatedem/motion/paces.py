@@ -7,7 +7,7 @@ steps of the contacts, *idle* ones the whole span in one step of the same scheme
 be missed: a busy body that is about to leave its room (something hit it) ends the span early.
 """
 
-from dilatedem.jit import device
+from dilatedem.jit import item
 from dilatedem.motion.integrate import travel
 from dilatedem.state.response import is_free
 
@@ -21,7 +21,7 @@ SPARE_ROOM = 0.005
 HORIZON = 0.75
 
 
-@device
+@item
 def foresee(dt, span, model, bodies, pairs, workspace):
     """Who can meet whom within the next `span` steps of dt [s], fewer where some body is too fast for so many.
 
@@ -36,7 +36,7 @@ def foresee(dt, span, model, bodies, pairs, workspace):
     return span, near, busy, idle
 
 
-@device
+@item
 def _give_room(time, model, bodies, pairs, workspace):
     """Room for all bodies over a time [s]; returns the longest way that one of them would go [m]."""
     solids, path, room, horizon = model.solids, bodies.path, workspace.room, workspace.horizon
@@ -53,7 +53,7 @@ def _give_room(time, model, bodies, pairs, workspace):
     return longest
 
 
-@device
+@item
 def _near_pairs(bodies, pairs, workspace):
     """Pairs whose gap both rooms together could close, to `workspace.near`; their bodies are marked. Returns how many."""
     path, room, near, is_busy = bodies.path, workspace.room, workspace.near, workspace.is_busy
@@ -69,7 +69,7 @@ def _near_pairs(bodies, pairs, workspace):
     return found
 
 
-@device
+@item
 def _by_pace(bodies, workspace):
     """Numbers of the busy and of the idle bodies, in order; returns how many of each."""
     busy = idle = 0

@@ -9,7 +9,7 @@ from math import sqrt
 import numpy as np
 
 from dilatedem.contact.laws import law_of
-from dilatedem.jit import device
+from dilatedem.jit import item
 from dilatedem.numerics.blocks import take
 from dilatedem.numerics.vector import load
 from dilatedem.state.response import is_free, mobility
@@ -96,7 +96,7 @@ def _rows_by_length(start, flat):
             yield some, take(flat, start[some], k)
 
 
-@device
+@item
 def assembled_frequency(solids, bodies, pairs, workspace):
     """Upper bound of the highest angular frequency [rad/s] of the normal springs that are open now (friction springs left out).
 

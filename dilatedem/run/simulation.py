@@ -10,7 +10,7 @@ from dilatedem.case.schema import Case
 from dilatedem.errors import CaseError, SimulationStopped
 from dilatedem.events.event import Event
 from dilatedem.events.kinds import events_of
-from dilatedem.jit import Alone, Team, is_cached, start_threads
+from dilatedem.jit import Alone, NoTimer, Team, Timer, is_cached, start_threads
 from dilatedem.motion.timestep import critical_step
 from dilatedem.run.error_check import Watch
 from dilatedem.run.faults import fault
@@ -70,6 +70,7 @@ class Simulation:
     span: int = 1  # steps that bodies which nothing can touch take in one
     threads: int = 1
     remodelled: bool = False  # whether bodies have come or gone
+    timer: NoTimer | Timer = NoTimer()  # a `Timer` for a step that tells how long its stages take
     events: list[Event] = field(init=False)  # that can happen
     spare: Pairs = field(init=False)
     cells: Cells = field(init=False)
@@ -192,7 +193,7 @@ class Simulation:
         clock = self.state.clock
         clock.dt[0], goal = dt, int(clock.step[0]) + steps
         while True:
-            status = self.call(advance, self.span, goal - int(clock.step[0]))
+            status = Status(advance(*self._arguments(), self.span, goal - int(clock.step[0])))
             if status != Status.PAIRS_FULL:
                 return status
             self.state.pairs = grown(self.state.pairs, 2 * len(self.state.pairs.a))
@@ -217,16 +218,12 @@ class Simulation:
         """Whether machine code of `advance` for this simulation lies on disk."""
         return is_cached(advance, *self._arguments(), self.span, 1)
 
-    def call(self, kernel, *more) -> Status:
-        """Call `advance`, or a kernel like it, with all arrays of this simulation and what follows them."""
-        return Status(kernel(*self._arguments(), *more))
-
     def _arguments(self) -> tuple:
         team = Alone() if self.threads == 1 else Team(self.threads)
         state = self.state
         return (
-            team, self.model, state.bodies, state.pairs, self.spare, self.cells, self.workspace, self.tally, state.ledger,
-            state.loads, self.windows, state.clock,
+            team, self.timer, self.model, state.bodies, state.pairs, self.spare, self.cells, self.workspace, self.tally,
+            state.ledger, state.loads, self.windows, state.clock,
         )  # fmt: skip
 
     def next_event(self, step: int) -> int:

@@ -2,42 +2,50 @@
 
 from dilatedem.contact.search.neighbours import awake_pairs, find_pairs
 from dilatedem.contact.tally import close_tally, too_deep
-from dilatedem.jit import kernel
+from dilatedem.jit import kernel, lap
 from dilatedem.motion.energy import book_energies
 from dilatedem.motion.paces import foresee
 from dilatedem.motion.timestep import assembled_frequency
 from dilatedem.state.clock import Status
-from dilatedem.step.blocks import collide_pairs, complete_spins, drift_bodies, load_and_kick, longest_path, surprised, tick
+from dilatedem.step.launch import collide_pairs, complete_spins, drift_bodies, float_and_kick, longest_path, surprised, tick
+from dilatedem.step.stages import COLLIDE, DRIFT, FLOAT, FORESEE, IDLE, RECORD, SEARCH, WAKE
 from dilatedem.structures.record import end_window, load_structures, record_loads
 
 DONE, PAIRS_FULL, TOO_FAST, TOO_DEEP = int(Status.DONE), int(Status.PAIRS_FULL), int(Status.TOO_FAST), int(Status.TOO_DEEP)
 
 
 @kernel
-def advance(team, model, bodies, pairs, spare, cells, workspace, tally, ledger, loads, windows, clock, span, steps):
+def advance(team, timer, model, bodies, pairs, spare, cells, workspace, tally, ledger, loads, windows, clock, span, steps):
     """Advance all bodies by up to `steps` steps of `clock.dt`; returns a `Status`, its culprit in `clock`.
 
-    team: `jit.Alone` or `jit.Team`. The method of Liu, Long & Ji (2015): move, meet, float. Bodies hold positions, velocities and
-    loads of one instant, before and after; a step of dt = 0 moves nothing and only evaluates the loads, as a run needs at its
-    start. span: bodies that nothing can touch take up to so many steps in one; 1 for the plain scheme.
+    team: `jit.Alone` or `jit.Team`; timer: `jit.NoTimer`, or `jit.Timer` for benchmarks; span: bodies that nothing can touch take up
+    to so many steps in one, 1 for the plain scheme. The method of Liu, Long & Ji (2015): move, meet, float. Bodies hold positions,
+    velocities and loads of one instant, before and after; a step of dt = 0 moves nothing and only evaluates the loads.
     """
     status, goal, dt = DONE, clock.step[0] + steps, clock.dt[0]
     while status == DONE and clock.step[0] < goal:
+        lap(timer, -1)
         if longest_path(bodies) >= pairs.limit[0] and not find_pairs(model, bodies, pairs, spare, cells, clock):
             status = PAIRS_FULL
             break
+        lap(timer, SEARCH)
         start = clock.step[0]
         ahead, near, busy, idle = foresee(dt, min(span - start % span, goal - start), model, bodies, pairs, workspace)
         clock.moves[0] += idle
+        lap(timer, FORESEE)
         while clock.step[0] < start + ahead:
             if not drift_bodies(team, workspace.busy, busy, dt, model, bodies, pairs, workspace, clock):
                 status = TOO_FAST
                 break
+            lap(timer, DRIFT)
             tick(clock)
             clock.moves[0] += busy
             awake, at_structure = awake_pairs(near, model.structure_of, bodies, pairs, workspace)
+            lap(timer, WAKE)
             collide_pairs(team, awake, dt, model, bodies, pairs, workspace, tally)
-            load_and_kick(team, workspace.busy, busy, awake, dt, clock.time[0], model, bodies, pairs, workspace)
+            lap(timer, COLLIDE)
+            float_and_kick(team, workspace.busy, busy, awake, dt, clock.time[0], model, bodies, pairs, workspace)
+            lap(timer, FLOAT)
             load_structures(at_structure, dt, model.structure_of, model.charts, bodies, pairs, workspace, loads)
             record_loads(loads)
             end_window(clock.step[0], loads, windows)
@@ -45,10 +53,12 @@ def advance(team, model, bodies, pairs, spare, cells, workspace, tally, ledger, 
                 status = TOO_DEEP
             if status != DONE or surprised(workspace):
                 break
+            lap(timer, RECORD)
         spent = (clock.step[0] - start) * dt
         if not drift_bodies(team, workspace.idle, idle, spent, model, bodies, pairs, workspace, clock):
             status = TOO_FAST
-        load_and_kick(team, workspace.idle, idle, 0, spent, clock.time[0], model, bodies, pairs, workspace)
+        float_and_kick(team, workspace.idle, idle, 0, spent, clock.time[0], model, bodies, pairs, workspace)
+        lap(timer, IDLE)
     close_tally(tally, ledger, loads, clock)
     complete_spins(model, bodies)
     book_energies(model, bodies, pairs, workspace, ledger)

@@ -10,7 +10,7 @@ from dilatedem.state.loads import HEIGHT_BINS, PLACE_BINS
 ANGLE, LINE = int(Along.ANGLE), int(Along.LINE)
 
 
-@device
+@item
 def load_structures(count, dt, structure_of, charts, bodies, pairs, workspace, loads):
     """Loads on all structures at this step, from the awake pairs with one, `count` of them."""
     for s in range(len(loads.step_contacts)):
@@ -77,7 +77,7 @@ def place_on_outline(outline, first, last, x, y):
     return place
 
 
-@device
+@item
 def record_loads(loads):
     """Add this step's structure loads to the open window: sums and extremes."""
     first = loads.steps[0] == 0
@@ -96,7 +96,7 @@ def record_loads(loads):
         extreme[s, 4] = fh if first else max(extreme[s, 4], fh)
 
 
-@device
+@item
 def end_window(step, loads, windows):
     """Put the open window down if it is due to end at this step; then the next one is open."""
     w = windows.count[0]

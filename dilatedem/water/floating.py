@@ -6,7 +6,7 @@ everything else is clipped face by face.
 
 from math import sqrt
 
-from dilatedem.jit import device
+from dilatedem.jit import device, item
 from dilatedem.numerics.rotation import rotation_matrix
 
 
@@ -95,7 +95,7 @@ def submerged_polyhedron(z, nx, ny, nz, hulls, body, works, thread):
     return volume, mx * s, my * s, mz * s, wetted
 
 
-@device
+@item
 def submerge(chosen, first, last, hulls, bodies, workspace, thread):
     """Submerged volume, centre of buoyancy (body frame), wetted area of the bodies chosen[first:last], to rows of `workspace.wet`.
 

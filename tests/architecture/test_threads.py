@@ -17,7 +17,7 @@ from dilatedem.run.simulation import Simulation
 from dilatedem.state.clock import Status
 from dilatedem.state.pairs import unpacked
 from dilatedem.step.advance import advance
-from dilatedem.step.blocks import _collide_shared, _drift_shared, _load_and_kick_shared
+from dilatedem.step.launch import _collide_shared, _drift_shared, _float_shared
 
 CROWDED = Path(__file__).parents[1] / "cases" / "crowded.toml"
 
@@ -62,7 +62,7 @@ def test_shared_loops_write_what_the_serial_loop_writes(start, parts):
 def test_the_shared_loops_are_those_that_were_compared():
     """Guards against a comparison of the serial loops with themselves."""
     assert any(Team.__name__ in str(signature[0]) for signature in advance.signatures)
-    for loop in (_drift_shared, _collide_shared, _load_and_kick_shared):
+    for loop in (_drift_shared, _collide_shared, _float_shared):
         assert loop.targetoptions["parallel"]
 
 

@@ -7,7 +7,7 @@ from benchmarks.__main__ import arguments, main, plan_of
 from benchmarks.measure import Plan, Replay
 from benchmarks.scenes import scene_simulation, settled, sized
 from benchmarks.targets import Target, targets
-from benchmarks.timed_step import STAGES
+from dilatedem.step.stages import STAGES
 
 
 def row(**known) -> dict:

@@ -1,19 +1,28 @@
-"""`jit.prefetch` reads and writes nothing, whatever the layout of the array; kernels hide their functions from each other;
-`jit.rare` keeps a function out of those that call it."""
+"""`jit.prefetch` reads and writes nothing, whatever the layout of the array; one process compiles for one thread and for two;
+machine code is kept by one process after the other; an item is merged into what calls it."""
 
 import fcntl
-import re
+import gc
+import os
 import shutil
+import subprocess
+import sys
 import threading
 from pathlib import Path
+from types import SimpleNamespace
 
 import numba
 import numpy as np
 import pytest
+from numba.core.errors import NumbaError
 
-from dilatedem.jit import CACHE_LINE, LOCK, device, item, kernel, prange, prefetch, rare, shared_loop
+import dilatedem
+from dilatedem.jit import CACHE_LINE, LOCK, Team, by_type, cache, device, is_cached, item, kernel, prange, prefetch, shared_loop
+from dilatedem.jit.cache import tend_cache
 from dilatedem.state.pairs import empty_pairs
-from dilatedem.step.blocks import PAIR_LINES
+from dilatedem.step.ahead import PAIR_LINES
+
+ROOT = Path(__file__).parents[2]
 
 
 @kernel
@@ -49,33 +58,49 @@ def test_a_pairs_row_is_as_many_lines_as_are_fetched():
 def _sum_of_block(array, blocks, block):
     """Too long to be merged into what calls it twice; `blocks` is an argument that optimising may take away."""
     total = 0.0
-    for i in range(block, len(array), 2):
+    for i in range(block, len(array), blocks):
         total += np.exp(np.sin(array[i])) / (1.0 + np.cosh(array[i])) ** 1.5
-    for i in range(block, len(array), 2):
+    for i in range(block, len(array), blocks):
         total -= np.exp(np.cos(array[i])) / (1.0 + np.sinh(array[i]) ** 2) ** 2.5
     return total
 
 
+@item
+def _sum_alone(team, array, sums):
+    for block in range(2):
+        sums[block] = _sum_of_block(array, 2, block)
+
+
 @shared_loop
-def _sum_blocks(array, sums):
+def _sum_shared(team, array, sums):
     for block in prange(2):
         sums[block] = _sum_of_block(array, 2, block)
 
 
+_sum_blocks = by_type(_sum_alone, {Team: _sum_shared})
+
+
 @kernel
-def summed_together(array, sums):
-    _sum_blocks(array, sums)
+def summed(team, array, sums):
+    _sum_blocks(team, array, sums)
     return sums[0] + sums[1]
 
 
-def test_a_kernel_shows_the_linker_nothing_but_itself():
-    """The linker takes functions of one name for the same: optimised as parts of their kernels they no longer are."""
-    summed_together(np.ones(4), np.zeros(2))
-    summed_together.recompile()  # code that comes from the disk cannot be read
-    (code,) = summed_together.inspect_asm().values()
-    functions = re.findall(r"\.type\s+(\S+),@function", code)
-    shown = [name for name in functions if not name.startswith(".L")]
-    assert len(functions) > len(shown) == 3 and all("summed_together" in name for name in shown)
+@pytest.mark.parametrize("order", [(1, 2), (2, 1)])
+def test_one_process_compiles_for_one_thread_and_for_two(order, tmp_path):
+    """Functions of one name, optimised as parts of one kernel, once were taken for those of the other: now and then a crash."""
+    program = (
+        "import numpy as np; from dilatedem.jit import Alone, Team, start_threads; from tests.unit.test_jit import summed; "
+        f"teams = {{1: Alone(), 2: Team(2)}}; order = {order}; start_threads(2); array = np.linspace(0.0, 1.0, 1001); "
+        "found = [summed(teams[n], array, np.zeros(2)) for n in order + order]; assert len(set(found)) == 1, found; "
+        "assert len(summed.signatures) == 2; print(found[0])"
+    )
+    environment = os.environ | {"NUMBA_CACHE_DIR": str(tmp_path), "NUMBA_NUM_THREADS": "2"}
+    told = subprocess.run([sys.executable, "-c", program], cwd=ROOT, env=environment, capture_output=True, text=True, check=False)
+    assert told.returncode == 0, told.stderr[-2000:]
+    x = np.linspace(0.0, 1.0, 1001)
+    expected = np.exp(np.sin(x)) / (1.0 + np.cosh(x)) ** 1.5 - np.exp(np.cos(x)) / (1.0 + np.sinh(x) ** 2) ** 2.5
+    assert float(told.stdout) == pytest.approx(expected.sum(), rel=1e-12)
 
 
 def test_two_processes_keep_machine_code_one_after_the_other(tmp_path, monkeypatch):
@@ -107,31 +132,54 @@ def test_machine_code_is_kept_though_its_folder_was_removed_meanwhile(tmp_path, 
     assert tripled(2.0) == 6.0 and list((tmp_path / "cache").rglob("*.nbc"))
 
 
-@rare
-def seldom(x):
-    return x * x
+def _four_sums(array, i):
+    """Too long for LLVM to merge it into a kernel that calls it twice, unless it must."""
+    return (
+        _sum_of_block(array, i + 1, i) + _sum_of_block(array, i + 2, i) + _sum_of_block(array, i + 3, i)
+        + _sum_of_block(array, i + 4, i)
+    )  # fmt: skip
 
 
-@device
-def often(x):
-    return 2.0 * x
+@pytest.mark.parametrize(("decorator", "apart"), [(item, False), (device, True)])
+def test_an_item_is_merged_into_what_calls_it_and_a_long_function_is_not(decorator, apart):
+    four_sums = decorator(_four_sums)
+
+    @kernel
+    def twice(array, n):
+        return four_sums(array, n) + four_sums(array, n + 1)
+
+    twice(np.zeros(3), 1)
+    twice.recompile()  # code that comes from the disk cannot be read
+    labels = [line for code in twice.inspect_asm().values() for line in code.splitlines() if line.endswith(":")]
+    assert any("10_four_sums" in label for label in labels) == apart
 
 
-@item
-def halved(x):
-    return seldom(x) if x < 0.0 else often(0.5 * x)
+def test_garbage_is_looked_for_as_before_once_a_kernel_is_compiled():
+    before = gc.get_threshold()
+
+    @kernel
+    def sound(x):
+        return x + 1.0
+
+    @kernel
+    def broken(x):
+        return x.no_such_field
+
+    assert sound(1.0) == 2.0
+    with pytest.raises(NumbaError):
+        broken(1.0)
+    assert gc.get_threshold() == before
 
 
-@kernel
-def sum_halved(array):
-    total = 0.0
-    for i in range(len(array)):
-        total += halved(array[i])
-    return total
+def test_a_numba_with_another_cache_inside_is_left_as_it_is():
+    """What has no public way is done without, not crashed over."""
+    unknown = SimpleNamespace(_cache=SimpleNamespace(cache_path="nowhere"))
+    tend_cache(unknown)
+    tend_cache(SimpleNamespace())
+    assert not hasattr(unknown._cache, "save_overload")
+    assert not is_cached(unknown, 1.0) and not is_cached(SimpleNamespace(), 1.0)
 
 
-def test_what_is_rare_stays_out_of_the_code_that_calls_it():
-    assert sum_halved(np.array([1.0, -3.0])) == 10.0
-    sum_halved.recompile()
-    labels = [line for code in sum_halved.inspect_asm().values() for line in code.splitlines() if line.endswith(":")]
-    assert any("6seldom" in label for label in labels) and not any("5often" in label for label in labels)
+def test_the_digest_is_of_the_whole_program():
+    """Any source may be part of a kernel, not those of the decorators alone."""
+    assert cache._PACKAGE == Path(dilatedem.__file__).parent

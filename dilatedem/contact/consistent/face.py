@@ -8,7 +8,7 @@ from math import pi, sqrt
 from dilatedem.contact.clip import clip_polygon
 from dilatedem.contact.consistent.cap import corner_of
 from dilatedem.contact.consistent.rim import FAR, bound_rims
-from dilatedem.jit import device, item, rare
+from dilatedem.jit import device, item
 from dilatedem.numerics.vector import add, along, cross, dot, scale, sub, tangents
 
 #: shape factor of a square punch, F = 2 E* BETA sqrt(A/pi) overlap (physics: rectangles 1.018, 1.045, 1.184, 1.321 at aspect ratios
@@ -211,7 +211,7 @@ def in_space(wrench, spread, origin, t1, t2, normal):
     return force, moment, (along(scale(one, t1), aside, t2), scale(two, t2))
 
 
-@rare
+@device
 def press_face(scratch, count_a, normal_a, count_b, normal_b, reach, overlap, modulus):
     """Energy W [J] of face a on face b (or on a half space), force on a's body and its moment about the origin, area, spread as of
     `join.pose_energy`; the patch: its corner count, the row of `scratch` that holds it, the slope of the overlap and the bounds of

@@ -13,7 +13,7 @@ from dilatedem.contact.consistent.line import BASE, BEND, LEVEL, line_compliance
 from dilatedem.contact.consistent.point import press_vertex
 from dilatedem.contact.consistent.rim import FAR, strongest_rim
 from dilatedem.contact.support import PARALLEL
-from dilatedem.jit import device, item, rare
+from dilatedem.jit import device, item
 from dilatedem.numerics.vector import along, cross, dot, load, scale, store, sub
 from dilatedem.state.modes import Mode
 
@@ -126,7 +126,7 @@ def _runs_past(scratch, which, count, normal, p, d, square):
     return False
 
 
-@rare
+@device
 def _press_rims(own, scratch, count, radius, their, other, normal, overlap, longest, modulus, sums):
     """Add the edges and vertices of cap `own` (0: of a, 1: of b) that press on the other cap to the sums of `_join`; returns those
     with the mode and size of the leading feature.
@@ -187,7 +187,7 @@ def _press_rims(own, scratch, count, radius, their, other, normal, overlap, long
     return largest, total, force, moment, mode, size, spread
 
 
-@rare
+@device
 def _lay_out(vertex, shapes, a, b, fa, fb, offset, pb, half_space, scratch):
     """Write the corners of both caps into `scratch`; returns their numbers."""
     na = lay_out(vertex, shapes, a, fa, NONE, scratch, 0)

@@ -2,7 +2,7 @@
 
 from math import sqrt
 
-from dilatedem.jit import device, rare
+from dilatedem.jit import device
 
 #: sine of the angle of two sides of a patch, and length of one, m, below which nothing is divided by them
 NEEDLE = 1e-9
@@ -52,7 +52,7 @@ def bound_rims(polygon, count, beyond, tilt, overlap):
     return any_rim(bounds, beyond, tilt, overlap)
 
 
-@rare
+@device
 def strongest_rim(polygon, count, beyond, lift, overlap):
     """Bounds for any edge that presses where a patch has its rim: integral of the squared overlap along it [m3], its length [m].
 

@@ -7,7 +7,7 @@ list a pair sleeps until the two paths have used up its gap.
 
 from math import sqrt
 
-from dilatedem.jit import device
+from dilatedem.jit import device, item
 from dilatedem.numerics.vector import dot, load, sub
 from dilatedem.state.pairs import KEPT, ROW
 from dilatedem.state.response import is_free
@@ -56,7 +56,7 @@ def near_structure(shapes, position, a, s, surroundings, skin):
     return sqrt(dx * dx + dy * dy) - shapes.reach[a] - shapes.plan_reach[s] < skin
 
 
-@device
+@item
 def find_pairs(model, bodies, pairs, spare, cells, clock):
     """Make the list of pairs anew; returns False, nothing changed, where it has no room.
 
@@ -152,7 +152,7 @@ def find_pairs(model, bodies, pairs, spare, cells, clock):
     return True
 
 
-@device
+@item
 def _exchange(pairs, spare, found):
     """Bring the new list (a, b of spare) into pairs, with the memory of those that were there."""
     before = pairs.count[0]
@@ -180,7 +180,7 @@ def _copy(source, i, target, k):
     target.wake[k] = -1.0
 
 
-@device
+@item
 def _start_paths(bodies, floating, pairs, surroundings, skin):
     """All paths start at zero, in the frame of the mean drift."""
     u = v = 0.0
@@ -194,7 +194,7 @@ def _start_paths(bodies, floating, pairs, surroundings, skin):
     pairs.limit[0] = USABLE * skin
 
 
-@device
+@item
 def awake_pairs(count, structure_of, bodies, pairs, workspace):
     """Numbers of those of the `count` near pairs whose gap may have closed, to `workspace.awake`; returns how many.
 

@@ -1,0 +1,102 @@
+"""Where machine code is kept: a folder named by a digest of the package's sources.
+
+Imported before all else that knows Numba.
+"""
+
+import hashlib
+import os
+import tempfile
+from contextlib import contextmanager, suppress
+from pathlib import Path
+
+try:
+    import fcntl
+except ImportError:  # Windows
+    fcntl = None
+
+#: the whole program, not this folder alone: any of its sources may be part of a kernel
+_PACKAGE = Path(__file__).parents[1]
+
+#: file in a folder of machine code that the process which writes there holds
+LOCK = "lock"
+
+
+def source_digest() -> str:
+    """Digest of every source file of the package; names the cache folder."""
+    digest = hashlib.sha256()
+    for path in sorted(_PACKAGE.rglob("*.py")):
+        digest.update(path.relative_to(_PACKAGE).as_posix().encode())
+        digest.update(path.read_bytes())
+    return digest.hexdigest()[:16]
+
+
+def _cache_folder() -> Path:
+    """A writable folder for compiled code: the user's cache, or a temporary folder where there is no usable home."""
+    base = os.environ.get("XDG_CACHE_HOME") or os.path.join(os.path.expanduser("~"), ".cache")
+    for root in (Path(base), Path(tempfile.gettempdir())):
+        folder = root / "dilatedem" / source_digest()
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+            if os.access(folder, os.W_OK):
+                return folder
+        except OSError:
+            continue
+    return Path(tempfile.mkdtemp(prefix="dilatedem-"))
+
+
+if "NUMBA_CACHE_DIR" not in os.environ:
+    os.environ["NUMBA_CACHE_DIR"] = str(_cache_folder())
+
+import numba  # noqa: E402  (the cache folder must be known first)
+
+from dilatedem.garbage import seldom_collected  # noqa: E402
+
+# a program that imported Numba before has it configured already, with the cache beside the sources: there, code goes stale
+numba.config.CACHE_DIR = os.environ["NUMBA_CACHE_DIR"]
+
+
+@contextmanager
+def turn(folder: Path):
+    """Wait until no other process saves machine code in a folder.
+
+    Numba numbers the files of one kernel by a list that each process reads, adds to and writes: two that add at once would take the
+    same number, and one kind of arguments could get the machine code of the other.
+    """
+    folder.mkdir(parents=True, exist_ok=True)  # it may have been removed since the program began
+    with (folder / LOCK).open("w") as file:
+        if fcntl:
+            with suppress(OSError):  # there are file systems without locks
+                fcntl.flock(file, fcntl.LOCK_EX)
+        yield
+
+
+def tend_cache(dispatcher) -> None:
+    """Have a kernel's machine code saved in `turn`, and loaded while Python looks for garbage seldom.
+
+    There is no public way to get in between: a Numba whose cache looks otherwise inside saves and loads as it likes.
+    """
+    cache = getattr(dispatcher, "_cache", None)
+    save, load, folder = (getattr(cache, name, None) for name in ("save_overload", "load_overload", "cache_path"))
+    if None in (save, load, folder):
+        return
+
+    def save_overload(*arguments):
+        with turn(Path(folder)):
+            save(*arguments)
+
+    def load_overload(*arguments):
+        with seldom_collected():
+            return load(*arguments)
+
+    cache.save_overload, cache.load_overload = save_overload, load_overload
+
+
+def is_cached(dispatcher, *arguments) -> bool:
+    """Whether machine code of a kernel for arguments like these lies on disk; False where this Numba does not tell."""
+    # there is no other way to ask without loading or compiling: the index of what Numba keeps on disk, by kinds of arguments
+    signature = tuple(numba.typeof(argument) for argument in arguments)
+    try:
+        cache = dispatcher._cache
+        return cache._index_key(signature, dispatcher.targetctx.codegen()) in cache._cache_file._load_index()
+    except (AttributeError, TypeError):
+        return False

@@ -1,0 +1,36 @@
+"""Several threads, or one: the choice as types, by which kernels are compiled, and the layer that runs them."""
+
+from typing import NamedTuple
+
+import numba
+
+# OpenMP starts a parallel loop in 2 us, the other layers in 35 us and more; workqueue is the fallback that is always there.
+numba.config.THREADING_LAYER_PRIORITY = ["omp", "workqueue", "tbb"]
+
+prange = numba.prange
+
+
+class Alone(NamedTuple):
+    """One thread does all the work: no parallel loop is compiled or started."""
+
+    threads: int = 1
+
+
+class Team(NamedTuple):
+    """Several threads share the loops over bodies and pairs."""
+
+    threads: int
+
+
+def start_threads(count: int) -> str:
+    """Make `count` threads ready for parallel loops; returns the name of the threading layer, "" for one thread.
+
+    Raises ValueError where the machine (or NUMBA_NUM_THREADS) has fewer.
+    """
+    if count == 1:
+        return ""
+    most = numba.config.NUMBA_NUM_THREADS
+    if count > most:
+        raise ValueError(f"threads = {count}: this machine offers {most}")
+    numba.set_num_threads(count)
+    return numba.threading_layer()
