@@ -7,7 +7,7 @@ runs it into a folder, `dilatedem.load(folder)` reads what a run or a sweep left
 import importlib
 from typing import Any
 
-__version__ = "0.1.0"
+__version__ = "0.2.0"
 
 #: names of the package and the modules they come from, imported when a name is asked for: `dilatedem --help` needs none of them
 _SOURCES = {

@@ -7,6 +7,7 @@ import numpy as np
 from dilatedem.output import folder
 from dilatedem.output.archive import ContactStatistics, FloeTable, LoadMap, PlanOutline, RunArchive
 from dilatedem.output.observer import Observer
+from dilatedem.state.ledger import TERMS
 from dilatedem.state.loads import HEIGHT_BINS, PLACE_BINS
 from dilatedem.structures.kind import Sketch
 
@@ -28,6 +29,7 @@ class Record(Observer):
             case = self.simulation.case
             current = case.water.velocity if case.water.enabled else (0.0, 0.0)
             about = {"title": case.title, "seed": case.field.seed, "current_velocity_m_s": current}
+            about |= {"energy_terms": [term.name for term in TERMS], "energy_labels": [term.label for term in TERMS]}
             self._archive = RunArchive(maps, statistics, self._floe_table(), outlines=self._outlines(), about=about)
         self._archive.write(self.out / folder.RUN_ARCHIVE)
 

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from types import MappingProxyType
+
 import numpy as np
 
 from dilatedem.post.canvas import (
@@ -34,13 +37,13 @@ TERMS = (
 
 
 @styled
-def energy_figure(energy: Table) -> Drawing:
-    """Terms of energy.csv since the start (above) and the residual of the ledger (below)."""
+def energy_figure(energy: Table, labels: Mapping[str, str] = MappingProxyType({})) -> Drawing:
+    """Terms of energy.csv since the start (above) and the residual of the ledger (below); labels: in words, of terms by name."""
     time = energy["time_s"]
     known = [term for term in TERMS if present(energy, term[1])]
     shown = {"time_s", "residual", *(name for term in known for name in term[1])}
     others = sorted(set(energy) - shown)
-    further = [(name.replace("_", " "), (name,), SERIES[n % len(SERIES)], "-.") for n, name in enumerate(others)]
+    further = [(labels.get(name, name.replace("_", " ")), (name,), SERIES[n % len(SERIES)], "-.") for n, name in enumerate(others)]
     terms = [(label, energy_change(energy, names), *look) for label, names, *look in (*known, *further)]
     terms = [term for term in terms if np.any(term[1])]
     largest = max((float(np.abs(values).max()) for _, values, *_ in terms), default=0.0)

@@ -108,7 +108,7 @@ def run_drawings(run: RunFolder) -> list[Drawing]:
         if load_map is not None:
             drawings.append(load_map_figure(load_map, upstream))
     if row_count(run.energy):
-        drawings.append(energy_figure(run.energy))
+        drawings.append(energy_figure(run.energy, run.energy_labels))
     return [drawing for drawing in drawings if drawing is not None]
 
 

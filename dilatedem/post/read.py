@@ -26,6 +26,7 @@ class RunFolder:
     contacts: dict[str, ContactStatistics] = field(default_factory=dict)  # by "ice_ice", "ice_structure"
     floes: FloeTable | None = None
     outlines: dict[str, PlanOutline] = field(default_factory=dict)  # by structure
+    energy_labels: dict[str, str] = field(default_factory=dict)  # terms of energy.csv in words
 
     @property
     def title(self) -> str:
@@ -86,4 +87,5 @@ def open_run(folder: Path) -> RunFolder:
         contacts=archive.contacts,
         floes=archive.floes,
         outlines=archive.outlines,
+        energy_labels=archive.energy_labels,
     )

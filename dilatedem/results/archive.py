@@ -68,6 +68,7 @@ class Archive:
     contacts: dict[str, ContactStatistics] = field(default_factory=dict)  # by "ice_ice", "ice_structure"
     floes: FloeTable | None = None
     outlines: dict[str, PlanOutline] = field(default_factory=dict)  # by structure
+    energy_labels: dict[str, str] = field(default_factory=dict)  # terms of energy.csv in words
 
 
 def read_archive(path: Path) -> Archive:
@@ -75,6 +76,8 @@ def read_archive(path: Path) -> Archive:
     found = Archive()
     try:
         with h5py.File(path, "r") as archive:
+            terms = (archive.attrs.get(name, ()) for name in ("energy_terms", "energy_labels"))
+            found.energy_labels = dict(zip(*(map(as_text, names) for names in terms), strict=True))
             for name, group in map_groups(archive.get("load_map", {})):
                 found.load_maps[name] = read_load_map(name, group)
             for pair, group in archive.get("contacts", {}).items():

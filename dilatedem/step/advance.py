@@ -18,9 +18,9 @@ DONE, PAIRS_FULL, TOO_FAST, TOO_DEEP = int(Status.DONE), int(Status.PAIRS_FULL),
 def advance(team, timer, model, bodies, pairs, spare, cells, workspace, tally, ledger, loads, windows, clock, span, steps):
     """Advance all bodies by up to `steps` steps of `clock.dt`; returns a `Status`, its culprit in `clock`.
 
-    team: `jit.Alone` or `jit.Team`; timer: `jit.NoTimer`, or `jit.Timer` for benchmarks; span: bodies that nothing can touch take
-    up to so many steps in one, 1 for the plain scheme. The method of Liu, Long & Ji (2015): move, meet, float. Bodies hold positions,
-    velocities and loads of one instant, before and after; a step of dt = 0 moves nothing and only evaluates the loads.
+    The method of Liu, Long & Ji (2015): move, meet, float. Bodies hold positions, velocities and loads of one instant, before and
+    after; a step of dt = 0 moves nothing and only evaluates the loads. team: `jit.Alone` or `jit.Team`; timer: `jit.NoTimer`, or
+    `jit.Timer` for benchmarks; span: bodies that nothing can touch take up to so many steps in one, 1 for the plain scheme.
     """
     status, goal, dt = DONE, clock.step[0] + steps, clock.dt[0]
     while status == DONE and clock.step[0] < goal:
