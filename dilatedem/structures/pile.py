@@ -8,11 +8,11 @@ from dilatedem.field.obstacles import Disk, Obstacle
 from dilatedem.geometry.polyhedron import Polyhedron, convex_hull, prism
 from dilatedem.geometry.shapes import BodyShape
 from dilatedem.keys import Name, PoissonRatio, Positive, Vector2, key
+from dilatedem.state.charts import Along
 from dilatedem.structures.kind import (
     DRAWN_BOTTOM,
     DRAWN_TOP,
     UPRIGHT,
-    Along,
     Chart,
     Part,
     Sketch,

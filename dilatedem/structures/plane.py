@@ -8,11 +8,11 @@ import numpy as np
 from dilatedem.field.obstacles import HalfPlane, Obstacle
 from dilatedem.geometry.polyhedron import Polyhedron, convex_hull
 from dilatedem.keys import Fault, Name, PoissonRatio, Positive, Vector3, key
+from dilatedem.state.charts import Along
 from dilatedem.structures.kind import (
     DRAWN_BOTTOM,
     DRAWN_TOP,
     UPRIGHT,
-    Along,
     Chart,
     Part,
     Sketch,
