@@ -47,7 +47,7 @@ def load_checkpoint(out: Path, case: Case, simulation: Simulation) -> dict:
     if "shapes" in groups:  # bodies have come or gone since the start
         kinds = {"shapes": Shapes, "hulls": Hulls, "solids": Solids}
         arrays = {name: checkpoint.restore(kind, groups[name], where=str(file)) for name, kind in kinds.items()}
-        floating, structures = len(state.ids.body), model.structure_of[model.floating :]
-        structure_of = np.concatenate([np.full(floating, -1), structures]).astype(np.int64)
-        simulation.adopt(model._replace(floating=floating, structure_of=structure_of, **arrays))
+        own, structures = model.structure_of[: model.floating], model.structure_of[model.floating :]
+        structure_of = np.concatenate([own[state.ids.body], structures])
+        simulation.adopt(model._replace(floating=len(state.ids.body), structure_of=structure_of, **arrays))
     return meta
