@@ -1,7 +1,8 @@
-"""Compiled doors to functions of the package that Python cannot call (`device`, `item`): thin, one call each."""
+"""Compiled doors to functions of the package that Python cannot call (`device`, `item`)."""
 
 from math import sqrt
 
+import numba
 import numpy as np
 
 from dilatedem.contact.collide import separation
@@ -20,6 +21,20 @@ from dilatedem.jit import device, kernel
 from dilatedem.numerics.vector import store
 from dilatedem.state.storage import MOST_CORNERS
 from dilatedem.water.floating import submerged_polyhedron, submerged_prism
+
+
+def door(function):
+    """A function of Python that calls a compiled one, whatever its arguments."""
+
+    @numba.njit(error_model="numpy")
+    def call(*arguments):
+        return function(*arguments)
+
+    return call
+
+
+hertz_factor, line_law = door(elliptic), door(line_energy)
+carried_spring, rescaled_spring, slid_spring, share_of_dashpot = map(door, (carried_over, rescaled, slide, viscous_share))
 
 
 @kernel
@@ -88,11 +103,6 @@ def around_cap(scratch, count, normal, x, width):
     return region, place, w, overhang(scratch, 1, count, normal, region, place, w, width)
 
 
-@kernel
-def hertz_factor(trace, determinant):
-    """`elliptic`."""
-    return elliptic(trace, determinant)
-
 
 @kernel
 def point_on_cap(x, radius, scratch, count, normal, other, modulus, shares):
@@ -100,11 +110,6 @@ def point_on_cap(x, radius, scratch, count, normal, other, modulus, shares):
     lay_sides(scratch, 1, count)
     return press_vertex(x, radius, scratch, 1, count, normal, other, modulus, shares)
 
-
-@kernel
-def line_law(modulus, first, second, curvature):
-    """`line_energy`."""
-    return line_energy(modulus, first, second, curvature)
 
 
 @kernel
@@ -141,27 +146,3 @@ def four_on_four(scratch, normal_a, normal_b, reach, overlap, modulus):
     beyond, (count, now, tilt, _, _) = sqrt(2.0 * reach * overlap), found[6]
     rims = strongest_rim(scratch[now], count, beyond, tilt * beyond, overlap) if found[0] else (0.0, 0.0)
     return found, rims
-
-
-@kernel
-def carried_spring(slip, normal):
-    """`carried_over`."""
-    return carried_over(slip, normal)
-
-
-@kernel
-def rescaled_spring(old, new):
-    """`rescaled`."""
-    return rescaled(old, new)
-
-
-@kernel
-def slid_spring(slip, turned, sliding, turning, stiffness, limit):
-    """`slide`."""
-    return slide(slip, turned, sliding, turning, stiffness, limit)
-
-
-@kernel
-def share_of_dashpot(slip, turned, sliding, turning, stiffness, dashpot, limit):
-    """`viscous_share`."""
-    return viscous_share(slip, turned, sliding, turning, stiffness, dashpot, limit)

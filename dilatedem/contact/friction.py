@@ -6,8 +6,8 @@ from typing import NamedTuple
 from dilatedem.contact.laws import carry, rubbed
 from dilatedem.contact.spring import carried_over, slide, viscous_share
 from dilatedem.jit import item
-from dilatedem.numerics.vector import along, dot, load, scale, sub
-from dilatedem.state.response import relative_velocity
+from dilatedem.numerics.vector import along, dot, load, scale
+from dilatedem.state.response import relative_spin, relative_velocity
 
 
 class Held(NamedTuple):
@@ -34,8 +34,7 @@ def hold(contact, k, dt, bodies, pairs, pressed, arm):
     slid = relative_velocity(bodies.middle_velocity, bodies.middle_angular_velocity, a, b, pressed.point, arm)
     slid, turned = along(slid, -dot(slid, direction), direction), 0.0
     if grip > 0.0:
-        spun = sub(load(bodies.middle_angular_velocity, b), load(bodies.middle_angular_velocity, a))
-        turned = grip * dot(spun, direction)
+        turned = grip * dot(relative_spin(bodies.middle_angular_velocity, a, b), direction)
     old_stiffness, opened = pairs.shear_stiffness[k], pairs.overlap[k] == 0.0
     shrink, stretch = 1.0, dt
     if not opened:

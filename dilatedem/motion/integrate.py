@@ -8,24 +8,7 @@ world axes as its state: without torque |L| cannot change.
 from dilatedem.jit import device, item
 from dilatedem.numerics.rotation import rotation_matrix, to_body, to_world, turned
 from dilatedem.numerics.vector import along, cross, dot, load, store
-from dilatedem.state.response import is_free, pushed
-
-
-@item
-def _times(matrix, i, v):
-    """matrix[i] v for an (n, 3, 3) array."""
-    return (
-        matrix[i, 0, 0] * v[0] + matrix[i, 0, 1] * v[1] + matrix[i, 0, 2] * v[2],
-        matrix[i, 1, 0] * v[0] + matrix[i, 1, 1] * v[1] + matrix[i, 1, 2] * v[2],
-        matrix[i, 2, 0] * v[0] + matrix[i, 2, 1] * v[1] + matrix[i, 2, 2] * v[2],
-    )
-
-
-@item
-def spin_of(i, solids, orientation, momentum):
-    """Angular velocity [rad/s, world axes] of body i with angular momentum `momentum` [kg m2/s, world axes]."""
-    R = rotation_matrix(orientation[i, 0], orientation[i, 1], orientation[i, 2], orientation[i, 3])
-    return to_world(R, _times(solids.inverse_inertia, i, to_body(R, momentum)))
+from dilatedem.state.response import body_spin, is_free, pushed, spin_of
 
 
 @item
@@ -37,8 +20,8 @@ def _middle(i, dt, solids, bodies, R):
     velocity = pushed(i, solids, load(bodies.velocity, i), 0.5 * dt, load(bodies.force, i))
     momentum = along(load(bodies.angular_momentum, i), 0.5 * dt, load(bodies.torque, i))
     own = to_body(R, momentum)
-    own = along(own, 0.5 * dt, cross(own, _times(solids.inverse_inertia, i, own)))
-    return velocity, momentum, _times(solids.inverse_inertia, i, own)
+    own = along(own, 0.5 * dt, cross(own, body_spin(i, solids, own)))
+    return velocity, momentum, body_spin(i, solids, own)
 
 
 @item
@@ -99,5 +82,3 @@ def kinetic_energy(i, solids, bodies):
     v = load(bodies.velocity, i)
     turning = dot(load(bodies.angular_momentum, i), load(bodies.angular_velocity, i))
     return 0.5 * (solids.mass[i] * dot(v, v) + turning)
-
-

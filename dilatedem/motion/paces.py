@@ -1,6 +1,6 @@
 """Two paces: floes that may touch take short steps, all others one long step beside them.
 
-Contacts last milliseconds, the water's loads change over a tenth of a second, and at most times most floes touch nothing. So the
+Contacts last milliseconds, the water's loads change over a second, and at most times most floes touch nothing. So the
 steps of a run come in spans. At the start of a span all bodies stand at the same instant; each is given room for twice the way
 that its present loads let it go, and two bodies that could meet within their rooms are *busy*. Busy bodies take the short
 steps of the contacts, *idle* ones the whole span in one step of the same scheme, which the water allows a thousand of. Nothing can

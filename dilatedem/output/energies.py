@@ -15,6 +15,7 @@ class Totals:
 
     initial_energy: float | None = None  # J
     largest_residual: float = 0.0  # J
+    largest_work: float = 0.0  # J, of all loads together, each by its size
     largest_step_ratio: float = 0.0  # dt over the critical step of the open contacts
 
 
@@ -35,6 +36,8 @@ def work_up(noted: list[list[float]], names: list[str], totals: Totals) -> np.nd
         totals.initial_energy = float(total[0])
     values["residual"] = total - totals.initial_energy
     totals.largest_residual = max(totals.largest_residual, float(np.abs(values["residual"]).max()))
+    work = sum(np.abs(values[term.name]) for term in there if term.owner == LOAD)
+    totals.largest_work = max(totals.largest_work, float(np.max(work)))
     totals.largest_step_ratio = max(totals.largest_step_ratio, float(values["step_ratio"].max()))
     return np.column_stack([values[name] for name in ("time_s", *names, "residual")])
 
@@ -70,8 +73,7 @@ class Energies(TableObserver):
 
     def summary(self) -> dict:
         terms = self.simulation.energies() if self.simulation.state.clock.step[0] else {}
-        works, residual = [term.name for term in TERMS if term.owner == LOAD], self.totals.largest_residual
-        work = abs(sum(terms.get(name, 0.0) for name in works))
+        residual, work = self.totals.largest_residual, self.totals.largest_work
         return {
             "dt_over_critical_of_open_contacts": self.totals.largest_step_ratio,
             "energy": {f"{name}_J": value for name, value in terms.items()}

@@ -69,7 +69,7 @@ def energy_figure(energy: Table, labels: Mapping[str, str] = MappingProxyType({}
     words = ""
     share = residual_share(energy)
     if share is not None:
-        words = f" The largest residual is {number(100.0 * share, 3)} % of the largest work of the current."
+        words = f" The largest residual is {number(100.0 * share, 3)} % of the largest work of the loads."
     caption = (
         f"Energy ledger against time (s). Above: each term's change since the first row ({unit}), terms that "
         f"stay zero left out; below: what the ledger leaves unexplained ({small_unit}).{words}"
@@ -88,10 +88,11 @@ def energy_change(energy: Table, names: tuple[str, ...]) -> np.ndarray:
 
 
 def residual_share(energy: Table) -> float | None:
-    """Largest residual over the largest work of the current (both in size); None where no work was done."""
-    if not present(energy, ("work_drag", "residual")) or not len(energy["time_s"]):
+    """Largest residual over the largest work of all loads, each by its size; None where no work was done."""
+    loads = [name for name in energy if name.startswith("work_") and name != "work_structure"]
+    if "residual" not in energy or not loads or not len(energy["time_s"]):
         return None
-    work = float(np.abs(energy["work_drag"]).max())
+    work = float(np.sum([np.abs(energy[name]) for name in loads], axis=0).max())
     return float(np.abs(energy["residual"]).max()) / work if work > 0.0 else None
 
 

@@ -174,7 +174,7 @@ def energy_rows(run: RunFolder, statistics: dict[str, Any]) -> Rows:
         rows.append([name.replace("_", " "), number(end / 1e3, 5), number(change / 1e3, 5)])
     share = statistics.get("largest_residual_over_work")
     if share is not None:
-        rows.append(["largest residual / largest work of the current", f"{number(100.0 * share, 3)} %", ""])
+        rows.append(["largest residual / largest work of the loads", f"{number(100.0 * share, 3)} %", ""])
     return rows
 
 

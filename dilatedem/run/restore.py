@@ -8,10 +8,8 @@ from dilatedem import __version__
 from dilatedem.case import write
 from dilatedem.case.schema import Case
 from dilatedem.errors import CaseError
-from dilatedem.geometry.shapes import Hulls, Shapes
 from dilatedem.output import checkpoint, folder
-from dilatedem.run.simulation import Simulation
-from dilatedem.state.bodies import Solids
+from dilatedem.run.simulation import REMODELLED, Simulation
 from dilatedem.state.pairs import unpacked
 
 
@@ -45,8 +43,7 @@ def load_checkpoint(out: Path, case: Case, simulation: Simulation) -> dict:
         state.watch.restore(groups, meta["watch"], where=str(file))
     simulation.make_room()
     if "shapes" in groups:  # bodies have come or gone since the start
-        kinds = {"shapes": Shapes, "hulls": Hulls, "solids": Solids}
-        arrays = {name: checkpoint.restore(kind, groups[name], where=str(file)) for name, kind in kinds.items()}
+        arrays = {name: checkpoint.restore(kind, groups[name], where=str(file)) for name, kind in REMODELLED.items()}
         own, structures = model.structure_of[: model.floating], model.structure_of[model.floating :]
         structure_of = np.concatenate([own[state.ids.body], structures])
         simulation.adopt(model._replace(floating=len(state.ids.body), structure_of=structure_of, **arrays))

@@ -10,6 +10,7 @@ from dilatedem.case.schema import Case
 from dilatedem.errors import CaseError, SimulationStopped
 from dilatedem.events.event import Event
 from dilatedem.events.kinds import events_of
+from dilatedem.geometry.shapes import Hulls, Shapes
 from dilatedem.jit import Alone, NoTimer, Team, Timer, is_cached, start_threads
 from dilatedem.motion.timestep import critical_step
 from dilatedem.run.error_check import Watch
@@ -18,7 +19,7 @@ from dilatedem.run.pace import free_span, time_step
 from dilatedem.run.views import Floes, Structures
 from dilatedem.scene.arrays import build_model, initial_bodies
 from dilatedem.scene.place import Scene, compose
-from dilatedem.state.bodies import Bodies, Ids
+from dilatedem.state.bodies import Bodies, Ids, Solids
 from dilatedem.state.clock import NEVER, Clock, Status, clock_at_start
 from dilatedem.state.ledger import Ledger, empty_ledger, energies
 from dilatedem.state.loads import Loads, Windows, empty_loads, no_windows
@@ -30,6 +31,8 @@ from dilatedem.water.loads import WORKS, works_of
 
 #: room for pairs at the start, per body; it grows where it is not enough
 PAIRS_PER_BODY = 8
+#: of the model, what an event changes
+REMODELLED = {"shapes": Shapes, "hulls": Hulls, "solids": Solids}
 #: steps by which a time may be missed, as sums of decimal numbers are
 ROUND_OFF = 1e-6
 
@@ -243,7 +246,7 @@ class Simulation:
 
     def remodelled_groups(self) -> dict:
         """What of the model is no longer what the case makes of it, by name."""
-        return {name: getattr(self.model, name) for name in ("shapes", "hulls", "solids")} if self.remodelled else {}
+        return {name: getattr(self.model, name) for name in REMODELLED} if self.remodelled else {}
 
     def make_room(self, capacity: int = 0) -> None:
         """Workspaces of the size that the list of pairs has, or of `capacity` pairs, where that is more."""

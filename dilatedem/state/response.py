@@ -1,6 +1,7 @@
 """How a body moves and what it opposes to a force: the one door to both, for contacts and for motion."""
 
 from dilatedem.jit import item
+from dilatedem.numerics.rotation import rotation_matrix, to_body, to_world
 from dilatedem.numerics.vector import add, along, cross, load, sub
 
 
@@ -23,9 +24,33 @@ def relative_velocity(velocity, spin, a, b, point, arm):
 
 
 @item
+def relative_spin(spin, a, b):
+    """How b turns against a [rad/s]."""
+    return sub(load(spin, b), load(spin, a))
+
+
+@item
 def pushed(i, solids, velocity, time, force):
     """The velocity [m/s] that a force [N] makes of `velocity` in a time [s]."""
     return along(velocity, time * solids.inverse_mass[i], force)
+
+
+@item
+def body_spin(i, solids, momentum):
+    """Angular velocity [rad/s] that an angular momentum [kg m2/s] means, both in the frame of body i."""
+    give = solids.inverse_inertia
+    return (
+        give[i, 0, 0] * momentum[0] + give[i, 0, 1] * momentum[1] + give[i, 0, 2] * momentum[2],
+        give[i, 1, 0] * momentum[0] + give[i, 1, 1] * momentum[1] + give[i, 1, 2] * momentum[2],
+        give[i, 2, 0] * momentum[0] + give[i, 2, 1] * momentum[1] + give[i, 2, 2] * momentum[2],
+    )
+
+
+@item
+def spin_of(i, solids, orientation, momentum):
+    """Angular velocity [rad/s, world axes] of body i with angular momentum `momentum` [kg m2/s, world axes]."""
+    R = rotation_matrix(orientation[i, 0], orientation[i, 1], orientation[i, 2], orientation[i, 3])
+    return to_world(R, body_spin(i, solids, to_body(R, momentum)))
 
 
 @item

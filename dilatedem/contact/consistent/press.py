@@ -5,8 +5,8 @@ from math import sqrt
 from dilatedem.contact.consistent.join import pose_energy
 from dilatedem.contact.pressed import Pressed
 from dilatedem.jit import device, item
-from dilatedem.numerics.vector import along, cross, dot, load, scale, store, sub
-from dilatedem.state.response import mobility, relative_velocity
+from dilatedem.numerics.vector import along, cross, dot, scale, store, sub
+from dilatedem.state.response import mobility, relative_spin, relative_velocity
 
 #: share of the sum of the radii past which the distance of the cores means nothing to the energy: they are about to touch
 DEEPEST_SHARE = 0.95
@@ -67,7 +67,7 @@ def press_consistent(contact, k, dt, shapes, vertex, face_normal, solids, bodies
     point, couple = pressure_centre(force, unit, moment, middle)
     arm = sub(point, offset)
     velocity = relative_velocity(bodies.velocity, bodies.angular_velocity, a, b, point, arm)
-    turning = sub(load(bodies.angular_velocity, b), load(bodies.angular_velocity, a))
+    turning = relative_spin(bodies.angular_velocity, a, b)
     elastic_power = -dot(force, velocity) - dot(couple, turning)
     share, rocking, rocking_power, dashpot = 1.0, none, 0.0, 0.0
     if contact.damping > 0.0:

@@ -47,7 +47,7 @@ def near_structure(shapes, position, a, s, surroundings, skin):
     if shapes.kind[s] != 0:
         height = dot(load(shapes.plane_normal, s), sub(load(position, a), load(position, s)))
         return height - shapes.reach[a] < skin
-    # a pile reaches far up and down: what counts is the distance in plan
+    # it may reach far up and down: what counts is the distance in plan
     dx, dy = position[s, 0] - position[a, 0], position[s, 1] - position[a, 1]
     if surroundings.period_x > 0.0:
         dx -= surroundings.period_x * round(dx / surroundings.period_x)
@@ -60,7 +60,7 @@ def near_structure(shapes, position, a, s, surroundings, skin):
 def find_pairs(model, bodies, pairs, spare, cells, clock):
     """Make the list of pairs anew; returns False, nothing changed, where it has no room.
 
-    spare: a second `Pairs` of the same capacity; cells: `state.workspace.Cells`. Pairs that were listed before keep their memory.
+    spare: a second `Pairs` of the same capacity; cells: `state.storage.Cells`. Pairs that were listed before keep their memory.
     """
     shapes, solids, surroundings, floating = model.shapes, model.solids, model.surroundings, model.floating
     position = bodies.position

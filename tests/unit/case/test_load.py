@@ -7,6 +7,10 @@ import pytest
 
 from dilatedem.case.load import load
 from dilatedem.errors import CaseError
+from dilatedem.structures.kinds import BY_NAME
+
+#: all kinds of structures, as a message lists them
+KINDS = " or ".join(", ".join(f'"{kind}"' for kind in BY_NAME).rsplit(", ", 1))
 
 
 def fault_lines(tmp_path: Path, text: str, *overrides: str) -> list[str]:
@@ -97,11 +101,11 @@ def test_fault_of_a_table(tmp_path, text, expected):
         ),
         (
             '[[structure]]\nkind = "pyle"',
-            'pile.toml:2: structure.0.kind = "pyle": must be "pile", "plane" or "box"; did you mean "pile"?',
+            f'pile.toml:2: structure.0.kind = "pyle": must be {KINDS}; did you mean "pile"?',
         ),
         (
             "[[structure]]\nradius = 2.0",
-            'pile.toml:1: structure.0.kind: is missing; it must be "pile", "plane" or "box"',
+            f"pile.toml:1: structure.0.kind: is missing; it must be {KINDS}",
         ),
         (
             '[[structure]]\nkind = "pile"\nradus = 2.0',

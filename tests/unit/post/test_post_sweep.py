@@ -117,7 +117,7 @@ def test_values_on_an_axis():
 
 
 def test_words_and_numbers():
-    assert axis_label("structure.0.radius") == "Pile radius (m)"
+    assert axis_label("structure.0.radius") == "Radius (m)"
     assert axis_label("water.velocity.0") == "Current along x (m/s)"
     assert axis_label("some.new_key") == "Some.new_key"
     assert [number(value) for value in (0.0, 12.3456, -0.5, 2.1e11, 1e-5)] == [

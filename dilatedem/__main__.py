@@ -1,0 +1,5 @@
+"""`python -m dilatedem`: the command line."""
+
+from dilatedem.cli import main
+
+main()
