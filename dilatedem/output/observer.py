@@ -50,6 +50,10 @@ class Observer:
         """Whether it has no room for what comes after `step` until it is refreshed."""
         return False
 
+    def must_save(self, step: int) -> bool:
+        """Whether the state is to be saved at `step`."""
+        return False
+
     def refresh(self) -> None:
         """Bring its file up to this moment."""
 

@@ -36,6 +36,9 @@ class Checkpoints(Observer):
     def interval(cls, case: Case) -> float:
         return case.output.checkpoint_interval
 
+    def must_save(self, step: int) -> bool:
+        return self.schedule.is_due(step)
+
 
 #: all observers, in the order in which they look; the first one's interval is that of the windows of loads
 OBSERVERS: tuple[type[Observer], ...] = (Forces, LoadWatch, Energies, TrackedBodies, Snapshots, Record, Checkpoints)
@@ -71,7 +74,6 @@ class RunFolder:
         step = int(simulation.state.clock.step[0])
         for observer in self._observers:
             observer.open(kept.get(observer.name, {}) if saved else None, step if saved else -1)
-        self._checkpoints = next(observer for observer in self._observers if isinstance(observer, Checkpoints))
         self._refreshed = time.monotonic()
         self._look_ahead(step if saved else -1)
         if not saved:
@@ -108,7 +110,7 @@ class RunFolder:
         step = int(self._simulation.state.clock.step[0])
         for observer in self._observers:
             observer.look(step, last)
-        if not last and self._checkpoints.schedule.is_due(step):
+        if not last and any(observer.must_save(step) for observer in self._observers):
             self._save("running")
         full = any(observer.is_full(step) for observer in self._observers)
         if full or time.monotonic() - self._refreshed >= REFRESH_S:
