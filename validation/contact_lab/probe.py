@@ -88,7 +88,7 @@ class _Copies:
         self.grid = np.spacing(np.abs(self.moved).max() + REACH)
 
     def at(self, position: np.ndarray, orientation: np.ndarray) -> tuple:
-        """Gap, mode, force, moment and energy of up to `count` poses, as in `Answers`; copies that are left repeat the last pose."""
+        """Gap, mode, force, moment and energy of up to `count` poses, as in `Answers`; copies left repeat the last."""
         asked, pose = len(position), np.minimum(np.arange(self.count), len(position) - 1)
         simulation, bodies, pairs = self.simulation, self.simulation.state.bodies, self.simulation.state.pairs
         for array in (pairs.count, pairs.frame, pairs.limit, pairs.a, pairs.b, pairs.wake, pairs.row):
