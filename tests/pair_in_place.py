@@ -48,7 +48,7 @@ class PairInPlace:
         self.cores = core_a, core_b
         self.shapes = pack_shapes([BodyShape(c, r, None, None) for c, r in zip(self.cores, radii, strict=True)], [])
         self.bodies = bodies_at_rest(2, 1)
-        self.surroundings = Surroundings(0.0, False, 1025.0, 0.0, 0.0, 0.0, 0.0, *map(float, period))
+        self.surroundings = Surroundings(*map(float, period))
         self._vertex, self._face_normal = self.shapes.vertex.copy(), self.shapes.face_normal.copy()
         self._scratch = np.zeros((6, MOST_CORNERS, 3))
         self.forget()

@@ -40,10 +40,11 @@ def test_no_contact_is_missed(boundary):
         copies = type(state.bodies)(*(array.copy() for array in state.bodies))
         loads = type(state.loads)(*(array.copy() for array in state.loads))
         clock = type(state.clock)(*(array.copy() for array in state.clock))
+        clock.dt[0] = 0.0
         workspace = make_workspace(simulation.model.shapes, simulation.model.hulls, len(fresh.a), 1)
         status = advance(
             Alone(), simulation.model, copies, fresh, empty_pairs(len(fresh.a)), simulation.cells, workspace, empty_tally(),
-            empty_ledger(), loads, simulation.windows, clock, 0.0, 1, 1,
+            empty_ledger(), loads, simulation.windows, clock, 1, 1,
         )  # fmt: skip
         assert status == 0
         anew = open_contacts(fresh)

@@ -7,7 +7,9 @@ from pathlib import Path
 
 import h5py
 import numpy as np
+from typer.testing import CliRunner
 
+from dilatedem.cli import app
 from dilatedem.output import checkpoint
 
 ROOT = Path(__file__).parents[2]
@@ -30,6 +32,11 @@ def environment() -> dict[str, str]:
 def dilatedem(*arguments) -> subprocess.CompletedProcess:
     """The command line in a process of its own."""
     return subprocess.run(command(*arguments), capture_output=True, text=True, env=environment(), check=False)
+
+
+def in_process(*arguments):
+    """The command line in this process, which has all modules and kernels already; `exit_code`, `stdout` and `stderr`."""
+    return CliRunner().invoke(app, [str(argument) for argument in arguments])
 
 
 def assert_same_run(folder: Path, expected: Path) -> None:

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from folders import CASES, assert_same_run, command, dilatedem, environment, saved
+from folders import CASES, assert_same_run, command, environment, in_process, saved
 
 from dilatedem.case.load import load
 from dilatedem.errors import CaseError, Interrupted
@@ -78,8 +78,8 @@ def test_ctrl_c_saves_the_state_and_resume_completes_the_run(crowded, tmp_path):
     summary = json.loads((out / "summary.json").read_text())
     assert summary["status"] == "interrupted" and 0.0 < summary["simulated_s"] < 4.0
 
-    done = dilatedem("run", CASES / "crowded.toml", "--out", out, "--resume", "--quiet")
-    assert (done.returncode, done.stderr) == (0, "")
+    done = in_process("run", CASES / "crowded.toml", "--out", out, "--resume", "--quiet")
+    assert (done.exit_code, done.stderr) == (0, "")
     assert_same_run(out, crowded)
 
 
@@ -92,8 +92,8 @@ def test_a_killed_run_resumes_from_its_last_checkpoint(crowded, tmp_path):
     assert process.returncode == -signal.SIGKILL
     assert json.loads((out / "summary.json").read_text())["status"] == "running"
 
-    done = dilatedem("run", CASES / "crowded.toml", "--out", out, "--resume", "--quiet")
-    assert (done.returncode, done.stderr) == (0, "")
+    done = in_process("run", CASES / "crowded.toml", "--out", out, "--resume", "--quiet")
+    assert (done.exit_code, done.stderr) == (0, "")
     assert_same_run(out, crowded)
 
 

@@ -3,6 +3,8 @@
 Sixteen cases in which every pair of these choices occurs.
 """
 
+from math import inf
+
 import pytest
 from folders import assert_same_run
 
@@ -44,26 +46,31 @@ def case_of(model: str, boundaries: tuple[str, str], structure: list[dict]) -> C
     })  # fmt: skip
 
 
-class AskedOnce(Interruption):
-    """Stands for a user who presses Ctrl-C at the eighth look at the keyboard."""
+def asked_after(most: float) -> type[Interruption]:
+    """Stands for a user who presses Ctrl-C after so many looks at the keyboard; counts them."""
 
-    looks = 8
+    class Asked(Interruption):
+        looks = 0
 
-    @property
-    def asked(self) -> bool:
-        self.looks -= 1
-        return self.looks < 0
+        @property
+        def asked(self) -> bool:
+            type(self).looks += 1
+            return self.looks > most
 
-    @asked.setter
-    def asked(self, value: bool) -> None:
-        pass
+        @asked.setter
+        def asked(self, value: bool) -> None:
+            pass
+
+    return Asked
 
 
 @pytest.mark.parametrize(("model", "boundaries", "threads", "structure"), CHOSEN)
 def test_resumed_equals_uninterrupted(model, boundaries, threads, structure, monkeypatch, tmp_path):
     case = case_of(model, boundaries, structure)
+    never = asked_after(inf)
+    monkeypatch.setattr(loop, "Interruption", never)
     whole = loop.run(case, tmp_path / "whole", threads=threads, quiet=True)
-    monkeypatch.setattr(loop, "Interruption", AskedOnce)
+    monkeypatch.setattr(loop, "Interruption", asked_after(never.looks // 2))
     with pytest.raises(Interrupted):
         loop.run(case, tmp_path / "parts", threads=threads, quiet=True)
     monkeypatch.undo()

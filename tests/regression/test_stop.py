@@ -5,7 +5,7 @@ import re
 
 import h5py
 import pytest
-from folders import CASES, dilatedem
+from folders import CASES, dilatedem, in_process
 
 from dilatedem.output import checkpoint
 
@@ -21,24 +21,26 @@ def bodies_case(tmp_path, *floes) -> str:
 
 def assert_stopped(done, out, sentence: str) -> dict:
     """The command ended as a simulation that could not go on; returns summary.json."""
-    assert done.returncode == 3
+    assert done.exit_code == 3
     assert "Traceback" not in done.stderr and done.stderr.count("\n") == 1
     assert re.fullmatch(sentence, done.stderr.strip()), done.stderr
     summary = json.loads((out / "summary.json").read_text())
     assert summary["status"] == "stopped" and summary["message"] == done.stderr.strip()
     groups, meta = checkpoint.load(out / "stopped.h5")
-    assert groups.keys() == {"bodies", "pairs", "ledger", "loads", "clock"}
+    assert groups.keys() == {"ids", "bodies", "pairs", "ledger", "loads", "clock"}
     assert groups["clock"]["step"][0] == summary["steps"]
     with h5py.File(out / "run.h5") as file:
         assert file["floes/body"][()].size == summary["floes"]
-    for name, offset in meta["offsets"].items():
-        assert (out / name).stat().st_size == offset
+    offsets = {name: kept["offset"] for name, kept in meta["observers"].items() if "offset" in kept}
+    assert "energy" in offsets
+    for name, offset in offsets.items():
+        assert (out / f"{name}.csv").stat().st_size == offset
     return summary
 
 
 def test_bodies_deep_in_each_other_stop_the_run_at_once(tmp_path):
     case, out = bodies_case(tmp_path, (0.0, 2.0, 0.0), (1.0, 3.0, 0.0)), tmp_path / "out"
-    done = dilatedem("run", case, "--out", out, "--quiet")
+    done = in_process("run", case, "--out", out, "--quiet")
     summary = assert_stopped(
         done,
         out,
@@ -50,13 +52,13 @@ def test_bodies_deep_in_each_other_stop_the_run_at_once(tmp_path):
 
 def test_a_body_that_is_far_too_fast_stops_the_run(tmp_path):
     case, out = bodies_case(tmp_path, (0.0, 2.0, 0.0), (3.0, 5.0, 5000.0)), tmp_path / "out"
-    done = dilatedem("run", case, "--out", out, "--quiet")
+    done = in_process("run", case, "--out", out, "--quiet")
     assert_stopped(done, out, r"stopped at t = \S+ s: body [01] at \(\S+, \S+\) moved \S+ m in one step; the state is saved; .*")
 
 
 def test_a_run_that_stops_on_its_way_keeps_its_checkpoint_and_its_tables(tmp_path):
     out = tmp_path / "out"
-    done = dilatedem("run", CASES / "soft_ball.toml", "--out", out, "--quiet")
+    done = in_process("run", CASES / "soft_ball.toml", "--out", out, "--quiet")
     summary = assert_stopped(
         done, out, r"stopped at t = 0\.00\d+ s: body 0 at \(-\d\.\d\d, -?0\.00\) and body 1 at \(-?0\.00, -?0\.00\) overlap by .*"
     )
@@ -64,8 +66,9 @@ def test_a_run_that_stops_on_its_way_keeps_its_checkpoint_and_its_tables(tmp_pat
     groups, _ = checkpoint.load(out / "restart.h5")  # the last good state; the one that failed is beside it
     assert 0 < groups["clock"]["step"][0] < summary["steps"]
     assert len((out / "energy.csv").read_text().splitlines()) > 5
-    assert dilatedem("info", out).returncode == 0
+    assert in_process("info", out).exit_code == 0
 
+    # in a process of its own, whose exit code and last words are those that a shell sees
     again = dilatedem("run", CASES / "soft_ball.toml", "--out", out, "--resume", "--quiet")
     assert (again.returncode, again.stderr) == (3, done.stderr)
 
@@ -87,8 +90,8 @@ REFUSED = {
 @pytest.mark.parametrize("reason", REFUSED)
 def test_a_wrong_case_is_refused_in_one_sentence_and_nothing_is_written(reason, tmp_path):
     override, sentence = REFUSED[reason]
-    done = dilatedem("run", CASES / "crowded.toml", "--out", tmp_path / "out", "--set", override)
-    assert done.returncode == 2
+    done = in_process("run", CASES / "crowded.toml", "--out", tmp_path / "out", "--set", override)
+    assert done.exit_code == 2
     assert re.search(sentence, done.stderr), done.stderr
     assert "Traceback" not in done.stderr and done.stderr.count("\n") == 1
     assert not (tmp_path / "out").exists()
@@ -96,9 +99,9 @@ def test_a_wrong_case_is_refused_in_one_sentence_and_nothing_is_written(reason, 
 
 def test_a_folder_that_holds_a_run_is_left_as_it_is(crowded):
     before = {path: (path.stat().st_mtime_ns, path.stat().st_size) for path in crowded.rglob("*")}
-    done = dilatedem("run", CASES / "mixed.toml", "--out", crowded)
-    assert done.returncode == 2 and done.stderr.count("\n") == 1
+    done = in_process("run", CASES / "mixed.toml", "--out", crowded)
+    assert done.exit_code == 2 and done.stderr.count("\n") == 1
     assert "holds a run already" in done.stderr and "--overwrite" in done.stderr
-    wrong = dilatedem("run", CASES / "mixed.toml", "--out", crowded, "--overwrite", "--set", "time.step=1e-3")
-    assert wrong.returncode == 2
+    wrong = in_process("run", CASES / "mixed.toml", "--out", crowded, "--overwrite", "--set", "time.step=1e-3")
+    assert wrong.exit_code == 2
     assert {path: (path.stat().st_mtime_ns, path.stat().st_size) for path in crowded.rglob("*")} == before

@@ -8,7 +8,8 @@ from dilatedem.case.schema import Case
 from dilatedem.run.simulation import Simulation
 from dilatedem.state.clock import Status
 
-CHUNK = 400  # steps between two looks
+CHUNK = 1200  # steps between two looks
+FLIGHT = 64  # times as many steps as usual are one until the bodies meet: nothing acts on them, and they do not turn
 QUIET = 0.6  # s of steady motion after which a collision is over: one end of a floe may hit long after the other
 PATIENCE = 5.0  # s, in which a collision has to begin, and then to end
 
@@ -43,6 +44,7 @@ def collide(case: Case, *, share: float = 1.0, patience: float = PATIENCE) -> Im
     """
     simulation = Simulation.of_case(case)
     simulation.dt *= share
+    span, simulation.span = simulation.span, FLIGHT * simulation.span
     bodies = simulation.state.bodies
     _advance(simulation, 0)
     kinetic, velocity = simulation.energies()["kinetic"], bodies.velocity[:2].copy()
@@ -55,6 +57,8 @@ def collide(case: Case, *, share: float = 1.0, patience: float = PATIENCE) -> Im
         _advance(simulation, CHUNK)
         pushed = simulation.contacts > 0 or not np.allclose(bodies.velocity[:2], last, rtol=1e-12, atol=1e-12)
         touched, last = touched or pushed, bodies.velocity[:2].copy()
+        if touched:
+            simulation.span = span
         quiet = 0.0 if pushed else quiet + CHUNK * simulation.dt
     after = simulation.energies()["kinetic"]
     return Impact(simulation.dt, kinetic, after, velocity, bodies.velocity[:2].copy(), bodies.angular_velocity[:2].copy())

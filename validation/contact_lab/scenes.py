@@ -21,6 +21,8 @@ SPHERE = {"vertices": [[0.0, 0.0, 0.0]], "dilated_radius": 0.5}
 PILE = {"kind": "pile", "center": [0.0, 0.0], "radius": 2.0}
 PILE_RADIUS = 2.0
 
+#: m, side of the domain: copies of it side by side are out of each other's reach
+SIDE = 16.0
 #: where nothing is set: far enough apart for two floes, in reach of each other's list of neighbours
 APART = ((-1.5, 0.0, 0.0), (1.5, 0.0, 0.0))
 
@@ -34,6 +36,7 @@ def scene(model: str, *solids: dict, damping: float = 0.0, speeds=(0.0, 0.0)) ->
     ]
     return Case.model_validate(
         {
+            "domain": {"size": [SIDE, SIDE]},
             "field": {"source": "bodies"},
             "water": {"enabled": False},
             "gravity": {"acceleration": 0.0},

@@ -68,11 +68,15 @@ def test_the_record_holds_the_momentum_that_the_block_lost_and_says_where():
 
 
 def test_no_floe_starts_in_it_and_its_files_are_complete(tmp_path):
+    """Nor in a body that is held beside it, whose load has a figure as well once a ball has hit it."""
     structure = {"kind": "box", "name": "pier", "center": [3.5, 0.0], "size": [3.0, 2.0], "rotation": 30.0}
-    case = load(CROWDED, ["time.duration=1.0", f"structure=[{toml(structure)}]"])
+    held = {"outline": [[-4.0, -1.0], [-2.0, -1.0], [-2.0, 1.0], [-4.0, 1.0]], "fixed": True}
+    ball = {"vertices": [[0.0, 0.0, 0.0]], "dilated_radius": 0.2, "position": [-4.5, 0.0, 0.0], "velocity": [2.0, 0.0, 0.0]}
+    bodies = f"body=[{toml(held)}, {toml(ball)}]"
+    case = load(CROWDED, ["time.duration=1.0", f"structure=[{toml(structure)}]", bodies])
     out = loop.run(case, tmp_path / "run", quiet=True)
     summary = json.loads((out / "summary.json").read_text())
-    assert summary["loads"]["pier"]["fh_max_N"] > 1e3
+    assert summary["loads"]["pier"]["fh_max_N"] > 1e3 and summary["loads"]["body_0"]["fh_max_N"] > 1e3
     with h5py.File(out / "run.h5") as file:
         assert file["structures/pier/outline_m"].shape == (4, 2) and file["load_map/pier/impulse_Ns"][()].sum() > 0.0
         assert file["load_map/pier"].attrs["axis_label"].startswith("Distance around the box")
@@ -81,7 +85,8 @@ def test_no_floe_starts_in_it_and_its_files_are_complete(tmp_path):
     from dilatedem.post import post
 
     post([out])
-    assert {"force_pier.png", "load_map_pier.png", "plan.png"} <= {path.name for path in (out / "figures").iterdir()}
+    drawn = {path.name for path in (out / "figures").iterdir()}
+    assert {"force_pier.png", "load_map_pier.png", "force_body_0.png", "plan.png"} <= drawn
 
 
 def toml(table: dict) -> str:

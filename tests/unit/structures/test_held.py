@@ -50,10 +50,6 @@ def test_two_held_bodies_do_not_meet_and_a_structure_stands_beside_them(tmp_path
     loads = json.loads((out / "summary.json").read_text())["loads"]
     assert list(loads) == ["pile", "body_0", "body_1"]
     assert loads["body_0"]["fh_max_N"] > 1e3 and loads["pile"]["fh_max_N"] == loads["body_1"]["fh_max_N"] == 0.0
-    from dilatedem.post import post
-
-    post([out])
-    assert (out / "figures" / "force_body_0.png").exists()
 
 
 def test_its_name_is_kept_for_it():
