@@ -24,9 +24,8 @@ def command(*arguments) -> list[str]:
 
 
 def environment() -> dict[str, str]:
-    """Two threads even on a machine of one core; the package of this tree, whatever is installed."""
-    # threads that wait asleep: on a busy machine those that spin take three times as long
-    return {**os.environ, "NUMBA_NUM_THREADS": "2", "OMP_WAIT_POLICY": "PASSIVE", "PYTHONPATH": str(ROOT)}
+    """The package of this tree, whatever is installed; the threads are those of tests/conftest.py."""
+    return {**os.environ, "PYTHONPATH": str(ROOT)}
 
 
 def dilatedem(*arguments) -> subprocess.CompletedProcess:

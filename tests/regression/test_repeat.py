@@ -3,7 +3,7 @@
 import json
 
 import pytest
-from folders import CASES, assert_same_run, dilatedem
+from folders import CASES, assert_same_run, dilatedem, in_process
 
 from dilatedem.case.load import load
 from dilatedem.run import loop
@@ -21,8 +21,8 @@ def test_two_threads_give_the_same_run(name, tmp_path):
     # short: on a busy machine the threads wait for each other in every step
     short = "time.duration=0.8"
     loop.run(load(CASES / f"{name}.toml", [short]), tmp_path / "one", quiet=True)
-    done = dilatedem("run", CASES / f"{name}.toml", "--set", short, "--out", tmp_path / "two", "--threads", 2, "--quiet")
-    assert (done.returncode, done.stderr) == (0, "")
+    done = in_process("run", CASES / f"{name}.toml", "--set", short, "--out", tmp_path / "two", "--threads", 2, "--quiet")
+    assert (done.exit_code, done.stderr) == (0, "")
     assert_same_run(tmp_path / "two", tmp_path / "one")
     assert largest_load(tmp_path / "one") > 1e3  # there was something to get wrong
 

@@ -1,5 +1,7 @@
 """Kinetic energy after elastic, frictionless collisions of random floes."""
 
+from collections.abc import Iterable
+
 import numpy as np
 from matplotlib.figure import Figure
 from scipy.spatial.transform import Rotation
@@ -51,9 +53,9 @@ def collision(model: str, random: np.random.Generator) -> Case:
     return scene(model, *floes, speeds=(0.5 * speed, -0.5 * speed))
 
 
-def kept_energies(model: str, count: int = COLLISIONS) -> np.ndarray:
-    """Kinetic energy after over before, of those of the first `count` pairs that meet."""
-    impacts = [collide(collision(model, np.random.default_rng([SEED, i])), patience=LONGEST) for i in range(count)]
+def kept_energies(model: str, numbers: Iterable[int] = range(COLLISIONS)) -> np.ndarray:
+    """Kinetic energy after over before, of those of the pairs with these numbers that meet."""
+    impacts = [collide(collision(model, np.random.default_rng([SEED, i])), patience=LONGEST) for i in numbers]
     return np.array([impact.kept for impact in impacts if impact is not None])
 
 
