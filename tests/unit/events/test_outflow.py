@@ -9,17 +9,49 @@ import pytest
 
 from dilatedem.case.load import load
 from dilatedem.case.schema import Case
-from dilatedem.errors import CaseError
+from dilatedem.errors import CaseError, Interrupted
 from dilatedem.results.load import load as results
 from dilatedem.run import loop
+from dilatedem.run.interruption import Interruption
+from dilatedem.run.simulation import Simulation
 
 CROWDED = Path(__file__).parents[2] / "cases" / "crowded.toml"
-LEAVING = ["domain.x_boundary=outflow", "water.velocity=[1.5,0.1]", "field.concentration=0.7", "structure.pile.radius=0.5"]
+#: body 0 is held fast amid the ice
+LEAVING = [
+    "domain.x_boundary=outflow", "water.velocity=[1.5,0.1]", "field.concentration=0.7", "structure.pile.radius=0.5",
+    "time.step_fraction=0.3", "body=[{outline=[[-1.5,2.5],[-0.5,2.5],[-0.5,3.5],[-1.5,3.5]], fixed=true}]",
+]  # fmt: skip
 
 
 @pytest.fixture(scope="module")
 def run(tmp_path_factory) -> Path:
     return loop.run(load(CROWDED, LEAVING), tmp_path_factory.mktemp("outflow") / "run", quiet=True)
+
+
+def test_a_run_that_is_resumed_after_floes_have_left_equals_one_that_never_stopped(run, monkeypatch, tmp_path):
+    case, out = load(CROWDED, LEAVING), tmp_path / "run"
+    happen, left = Simulation.let_happen, []
+
+    def noted(self):
+        left.append(happen(self))
+        return left[-1]
+
+    class AskedOnceTheyHaveLeft(Interruption):
+        asked = property(lambda self: any(left), lambda self, value: None)
+
+    monkeypatch.setattr(Simulation, "let_happen", noted)
+    monkeypatch.setattr(loop, "Interruption", AskedOnceTheyHaveLeft)
+    with pytest.raises(Interrupted):
+        loop.run(case, out, quiet=True)
+    monkeypatch.undo()
+    stopped = results(out).summary
+    assert 1.0 <= stopped["simulated_s"] < 4.0 and stopped["floes"] < len(results(run).snapshot(0.0).body)
+    loop.run(case, out, resume=True, quiet=True)
+    for name in ("forces.csv", "energy.csv", "bodies.csv", "ice.pvd"):
+        assert (out / name).read_bytes() == (run / name).read_bytes(), name
+    forces = results(run).forces
+    held = forces[(forces.structure == "body_0") & (forces.time_s > stopped["simulated_s"])]
+    assert held.fh_max_N.max() > 1e3, "the held body is hit after floes have left"
 
 
 def test_bodies_leave_as_a_whole_and_only_downstream(run):
