@@ -1,6 +1,7 @@
 """What all tests share: threads that wait asleep, kernels compiled once, and runs that several tests read but never change."""
 
 import os
+import sys
 from functools import partial
 from pathlib import Path
 
@@ -20,6 +21,9 @@ def kernels_compiled_once(request, tmp_path_factory):
 
     A session of all tests needs the step in all its kinds: the processes share them out at its start, where none has to wait.
     """
+    if "numba" not in sys.modules:  # nor will it be but for the runs below, which one process makes
+        yield
+        return
     from dilatedem.run.loop import compile_kernels
     from dilatedem.state.setting import CONTACT_SETTINGS
     from tests.shared_work import common_folder, compiled_in_turn, share_out

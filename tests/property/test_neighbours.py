@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from dilatedem.case.schema import Case
-from dilatedem.jit import Alone
+from dilatedem.jit import Alone, NoTimer
 from dilatedem.run.simulation import Simulation
 from dilatedem.state.ledger import empty_ledger
 from dilatedem.state.pairs import empty_pairs
@@ -43,8 +43,8 @@ def test_no_contact_is_missed(boundary):
         clock.dt[0] = 0.0
         workspace = make_workspace(simulation.model.shapes, simulation.model.hulls, len(fresh.a), 1)
         status = advance(
-            Alone(), simulation.model, copies, fresh, empty_pairs(len(fresh.a)), simulation.cells, workspace, empty_tally(),
-            empty_ledger(), loads, simulation.windows, clock, 1, 1,
+            Alone(), NoTimer(), simulation.model, copies, fresh, empty_pairs(len(fresh.a)), simulation.cells, workspace,
+            empty_tally(), empty_ledger(), loads, simulation.windows, clock, 1, 1,
         )  # fmt: skip
         assert status == 0
         anew = open_contacts(fresh)
