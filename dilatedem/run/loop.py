@@ -78,7 +78,7 @@ def _compile(simulation: Simulation, progress: Progress) -> float:
     """Have the kernels ready before any file is touched: Ctrl-C ends this at once, with nothing to save. Returns the time, s."""
     started = time.perf_counter()
     if not simulation.is_compiled():
-        progress.message("compiling, once (about twenty seconds)")
+        progress.message("compiling, once (about half a minute)")
     try:
         compile_kernels(simulation.threads, simulation.case.contact.model)
     except KeyboardInterrupt:

@@ -6,6 +6,8 @@
 4. its plan obstacles: where no floe can start (`obstacles`);
 5. the chart of its load map: how places on it are laid out flat (`chart`);
 6. its drawing: what ParaView shows (`drawing`) and what the figures in plan show (`sketch`).
+
+Besides, the point about which its moments are stated (`place`).
 """
 
 from __future__ import annotations
@@ -37,7 +39,7 @@ class Part:
 
     position (3,) [m]: centroid, or a point of the half space's plane; orientation (4,): unit quaternion, body to world; shape: of
     the core, None for a half space; normal (3,): outward unit normal of a half space, None for a core; plan_reach [m]: radius of
-    the upright cylinder about `position` that holds a core.
+    the upright cylinder about `position` that holds a core, or more.
     """
 
     position: np.ndarray
