@@ -1,6 +1,7 @@
 """Work that several processes of one test session need: one of them does it, the others wait and take what it made."""
 
 import fcntl
+import hashlib
 import os
 import shutil
 from collections.abc import Callable, Iterator
@@ -56,13 +57,15 @@ def share_out(jobs: dict[str, Callable[[], object]], folder: Path) -> None:
 
 @contextmanager
 def compiled_in_turn(locks: Path) -> Iterator[None]:
-    """Have each kernel compiled by one process at a time: who waited finds the machine code on disk."""
+    """Have each kernel compiled for arguments of one kind by one process: who waited finds the machine code on disk."""
     compile = Dispatcher.compile
 
     def compile_in_turn(self, signature):
         if isinstance(self._cache, NullCache):  # what kernels call is compiled with them
             return compile(self, signature)
-        with turn(locks / f"{self.py_func.__module__}.{self.py_func.__qualname__}"):
+        # other arguments are another kernel: the step of one contact model need not wait for that of the other
+        kind = hashlib.sha256(str(signature).encode()).hexdigest()[:16]
+        with turn(locks / f"{self.py_func.__module__}.{self.py_func.__qualname__}-{kind}"):
             return compile(self, signature)
 
     Dispatcher.compile = compile_in_turn
