@@ -59,8 +59,9 @@ def test_shared_loops_write_what_the_serial_loop_writes(start, parts):
     assert np.any(alone.state.pairs.force != unpacked(start["pairs"], len(alone.state.pairs.a)).force)
 
 
-def test_the_shared_loops_are_those_that_were_compared():
+def test_the_shared_loops_are_those_that_were_compared(start):
     """Guards against a comparison of the serial loops with themselves."""
+    advanced(2, start)
     assert any(Team.__name__ in str(signature[0]) for signature in advance.signatures)
     for loop in (_drift_shared, _collide_shared, _float_shared):
         assert loop.targetoptions["parallel"]
