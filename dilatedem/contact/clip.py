@@ -3,6 +3,8 @@
 A polygon is rows 0..n-1 of a workspace (m, 3): plane coordinates u, v and a height h that is carried along linearly.
 """
 
+from math import sqrt
+
 from dilatedem.jit import device
 
 
@@ -52,7 +54,7 @@ def polygon_centroid(polygon, count):
     far = 0.0
     for i in range(count):
         far = max(far, (polygon[i, 0] - u) ** 2 + (polygon[i, 1] - v) ** 2)
-    return area, u, v, h, 2.0 * far**0.5
+    return area, u, v, h, 2.0 * sqrt(far)
 
 
 @device

@@ -21,6 +21,7 @@ from dilatedem.field.tessellation import voronoi_cells
 from dilatedem.geometry import outline as plan
 from dilatedem.geometry.polyhedron import Polyhedron
 from dilatedem.numerics.blocks import place
+from dilatedem.numerics.plain import dot
 from dilatedem.numerics.root import bracketed_root
 
 # A floe whose core vanishes when it is made smaller by this part counts as too small.
@@ -104,9 +105,7 @@ def equilibrium_height(outer: Polyhedron, density: float, water_density: float) 
     its height. Raises ValueError for ice too heavy to float.
     """
     if not density < water_density:
-        raise ValueError(
-            f"density = {density:g} kg/m3: must be below that of the water, {water_density:g} kg/m3, to float"
-        )
+        raise ValueError(f"density = {density:g} kg/m3: must be below that of the water, {water_density:g} kg/m3, to float")
     bottom, top = outer.vertices[..., 2].min(axis=-1), outer.vertices[..., 2].max(axis=-1)
     return -bottom - (top - bottom) * density / water_density
 
@@ -119,12 +118,12 @@ def _dilated_areas(groups: Groups, count: int, factor: float, radius: float) -> 
     area = np.zeros(count)
     without_core = np.ones(count, dtype=bool)
     for index, corners in groups:
-        area[index] = factor**2 * plan.area(corners)
+        area[index] = factor * factor * plan.area(corners)
         # shrinking, then eroding by r, is eroding by r/factor, then shrinking
         for eroded in plan.erode_together(corners, radius / factor):
             core_area, core_perimeter = plan.area(eroded.corners), plan.perimeter(eroded.corners)
             floe = index[eroded.index]
-            area[floe] = factor**2 * core_area + factor * core_perimeter * radius + np.pi * radius**2
+            area[floe] = factor * factor * core_area + factor * core_perimeter * radius + np.pi * radius * radius
             without_core[floe] = False
     return area, without_core
 
@@ -150,16 +149,14 @@ def _shrink_factor(groups: Groups, ice_area: float, domain_area: float, radius: 
     return bracketed_root(excess, lowest, 1.0, absolute=1e-15, relative=4.0 * EPSILON)
 
 
-def _touching(
-    outlines: plan.Outlines, obstacles: Sequence[Obstacle], size: np.ndarray, periodic: Sequence[bool]
-) -> np.ndarray:
+def _touching(outlines: plan.Outlines, obstacles: Sequence[Obstacle], size: np.ndarray, periodic: Sequence[bool]) -> np.ndarray:
     """(floes,) whether an outline touches or overlaps an obstacle or a periodic image of one."""
     corners, start, sides = outlines.points, outlines.start[:-1], outlines.sides
     touching = np.zeros(len(outlines), dtype=bool)
     polygons = shapely.polygons(shapely.linearrings(corners, indices=np.repeat(np.arange(len(sides)), sides)))
     for obstacle in obstacles:
         if isinstance(obstacle, HalfPlane):
-            height = (corners - np.asarray(obstacle.point)) @ np.asarray(obstacle.normal)
+            height = dot(corners - np.asarray(obstacle.point), obstacle.normal)
             touching |= np.minimum.reduceat(height, start) <= 0.0
             continue
         if isinstance(obstacle, Disk):

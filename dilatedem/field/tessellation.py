@@ -17,6 +17,7 @@ from scipy.spatial import Voronoi
 
 from dilatedem.geometry.outline import Outlines
 from dilatedem.numerics.blocks import offsets
+from dilatedem.numerics.plain import angle, norm
 
 # Width of the belt of copies around the domain at the first try, in mean spacings of the points. Too narrow a
 # belt is noticed and widened, so this only sets the cost.
@@ -27,9 +28,7 @@ BELT = 4.0
 RESOLUTION = 1e-9
 
 
-def voronoi_cells(
-    size: ArrayLike, count: int, periodic: Sequence[bool], seed: int | np.random.Generator
-) -> Outlines:
+def voronoi_cells(size: ArrayLike, count: int, periodic: Sequence[bool], seed: int | np.random.Generator) -> Outlines:
     """Voronoi cells of `count` points drawn uniformly in the domain.
 
     size      (2,) [m], the domain, centred on the origin
@@ -65,7 +64,7 @@ def cells_of_points(points: np.ndarray, size: np.ndarray, periodic: Sequence[boo
             position[on_edge, axis] = np.copysign(half, position[on_edge, axis])
     cell = np.repeat(np.arange(len(points)), np.diff(start))
     ahead = _next_in_cell(start)
-    distinct = np.linalg.norm(position[ahead] - position, axis=1) > RESOLUTION * spacing
+    distinct = norm(position[ahead] - position) > RESOLUTION * spacing
     return Outlines(position[distinct], offsets(np.bincount(cell[distinct], minlength=len(points))))
 
 
@@ -93,7 +92,7 @@ def _sorted_corners(diagram: Voronoi, count: int) -> tuple[np.ndarray, np.ndarra
     corner = np.fromiter((v for region in regions for v in region), dtype=np.int64, count=start[-1])
     cell = np.repeat(np.arange(count), np.diff(start))
     away = diagram.vertices[corner] - diagram.points[cell]
-    return corner[np.lexsort((np.arctan2(away[:, 1], away[:, 0]), cell))], start
+    return corner[np.lexsort((angle(away[:, 1], away[:, 0]), cell))], start
 
 
 def _belt_suffices(
@@ -108,7 +107,7 @@ def _belt_suffices(
         return False
     cell = np.repeat(np.arange(len(points)), np.diff(start))
     position = diagram.vertices[corner]
-    reach = np.linalg.norm(position - points[cell], axis=1)[:, None]
+    reach = norm(position - points[cell])[:, None]
     return bool((np.abs(position) + reach <= 0.5 * size + belt).all())
 
 

@@ -25,12 +25,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from dilatedem.geometry.polyhedron import Polyhedron, add_rows, edge_faces, rows, triangles, weighted
+from dilatedem.numerics.plain import angle, determinant, dot, norm, sine_cosine
 
 Moments = tuple[np.ndarray, np.ndarray, np.ndarray]  # int dV (...,) [m3], int x dV (..., 3) [m4], int x x dV (..., 3, 3) [m5]
-
-# Sums of products over k: of a weight and two vectors, of a weight and the corners c of triangles with themselves.
-PRODUCTS = "...k,...ki,...kj->...ij"
-CORNER_PRODUCTS = "...k,...kci,...kcj->...ij"
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,19 +84,16 @@ class EdgeArcs:
 def edge_arcs(core: Polyhedron) -> EdgeArcs:
     """The arc of outward normals at every edge of a core of dimension 1 to 3 (none for a point)."""
     start, end = _ends(core)
-    direction = (end - start) / np.linalg.norm(end - start, axis=-1, keepdims=True)
+    direction = (end - start) / norm(end - start)[..., None]
     if core.dimension == 1:
         across = np.cross(direction, np.eye(3)[np.abs(direction).argmin(axis=-1)])
-        angle = np.full(direction.shape[:-1], 2.0 * np.pi)
-        return EdgeArcs(angle, direction, across / np.linalg.norm(across, axis=-1, keepdims=True))
+        return EdgeArcs(np.full(direction.shape[:-1], 2.0 * np.pi), direction, across / norm(across)[..., None])
     beside = edge_faces(core)
     left, right = rows(core.normals, beside[:, 0]), rows(core.normals, beside[:, 1])
-    angle = np.arctan2(np.linalg.norm(np.cross(left, right), axis=-1), np.einsum("...i,...i->...", left, right))
     # The normals alone lose the bisector on a plate (opposite normals), the in-face outward directions lose
     # it where faces are nearly coplanar; their sum is safe in between too.
     middle = left + right + np.cross(direction, left) - np.cross(direction, right)
-    length = np.linalg.norm(middle, axis=-1, keepdims=True)
-    return EdgeArcs(angle, direction, middle / length)
+    return EdgeArcs(angle(norm(np.cross(left, right)), dot(left, right)), direction, middle / norm(middle)[..., None])
 
 
 def _ends(core: Polyhedron) -> tuple[np.ndarray, np.ndarray]:
@@ -112,6 +106,16 @@ def _nothing(core: Polyhedron) -> Moments:
     return np.zeros(stack), np.zeros((*stack, 3)), np.zeros((*stack, 3, 3))
 
 
+def _products(weight: np.ndarray, u: np.ndarray, v: np.ndarray) -> np.ndarray:
+    """(..., 3, 3) sum over k of weight (..., k) times u v^T of vectors (..., k, 3)."""
+    return ((weight[..., None] * u)[..., :, None] * v[..., None, :]).sum(axis=-3)
+
+
+def _corner_products(weight: np.ndarray, corner: np.ndarray) -> np.ndarray:
+    """`_products` of the corners (..., k, 3, 3) of triangles with themselves."""
+    return sum(_products(weight, corner[..., c, :], corner[..., c, :]) for c in range(3))
+
+
 def _with_transpose(matrix: np.ndarray) -> np.ndarray:
     return matrix + np.swapaxes(matrix, -1, -2)
 
@@ -120,10 +124,10 @@ def _core(core: Polyhedron) -> Moments:
     if core.dimension < 3:
         return _nothing(core)
     corner = rows(core.vertices, triangles(core)[0])
-    volume = np.linalg.det(corner) / 6.0  # tetrahedra from the reference point
+    volume = determinant(corner) / 6.0  # tetrahedra from the reference point
     total = corner.sum(axis=-2)
     first = weighted(volume, total) / 4.0
-    second = (np.einsum(PRODUCTS, volume, total, total) + np.einsum(CORNER_PRODUCTS, volume, corner, corner)) / 20.0
+    second = (_products(volume, total, total) + _corner_products(volume, corner)) / 20.0
     return volume.sum(axis=-1), first, second
 
 
@@ -134,15 +138,15 @@ def _face_slabs(core: Polyhedron, r: float) -> Moments:
     index, face = triangles(core)
     corner, normal = rows(core.vertices, index), rows(core.normals, face)
     spanned = np.cross(corner[..., 1, :] - corner[..., 0, :], corner[..., 2, :] - corner[..., 0, :])
-    area = 0.5 * np.einsum("...i,...i->...", spanned, normal)
+    area = 0.5 * dot(spanned, normal)
     total = corner.sum(axis=-2)
-    second = np.einsum(PRODUCTS, area, total, total) + np.einsum(CORNER_PRODUCTS, area, corner, corner)
-    mixed = np.einsum(PRODUCTS, area, total / 3.0, normal)
-    upright = np.einsum(PRODUCTS, area, normal, normal)
+    second = _products(area, total, total) + _corner_products(area, corner)
+    mixed = _products(area, total / 3.0, normal)
+    upright = _products(area, normal, normal)
     return (
         area.sum(axis=-1) * r,
-        weighted(r * area, total) / 3.0 + weighted(0.5 * r**2 * area, normal),
-        r * second / 12.0 + 0.5 * r**2 * _with_transpose(mixed) + r**3 / 3.0 * upright,
+        weighted(r * area, total) / 3.0 + weighted(0.5 * r * r * area, normal),
+        r * second / 12.0 + 0.5 * r * r * _with_transpose(mixed) + r * r * r / 3.0 * upright,
     )
 
 
@@ -151,20 +155,20 @@ def _edge_wedges(core: Polyhedron, r: float, arcs: EdgeArcs) -> Moments:
     if len(core.edges) == 0:
         return _nothing(core)
     start, end = _ends(core)
-    length = np.linalg.norm(end - start, axis=-1)
-    middle, side, angle = arcs.middle, np.cross(arcs.direction, arcs.middle), arcs.angle
+    length, middle, side = norm(end - start), arcs.middle, np.cross(arcs.direction, arcs.middle)
+    sine, half_sine = sine_cosine(arcs.angle)[0], sine_cosine(0.5 * arcs.angle)[0]
     total = start + end
-    sector = length * angle * r**2 / 2.0
-    pull = length * 2.0 * np.sin(0.5 * angle) * r**3 / 3.0  # first moment of the sector, along the bisector
-    along = np.einsum(PRODUCTS, sector, total, total)
-    along += np.einsum(PRODUCTS, sector, start, start) + np.einsum(PRODUCTS, sector, end, end)
-    mixed = np.einsum(PRODUCTS, pull, total / 2.0, middle)
-    across = np.einsum(PRODUCTS, length * (angle + np.sin(angle)), middle, middle)
-    across += np.einsum(PRODUCTS, length * (angle - np.sin(angle)), side, side)
+    sector = length * arcs.angle * (r * r) / 2.0
+    pull = length * 2.0 * half_sine * (r * r * r) / 3.0  # first moment of the sector, along the bisector
+    along = _products(sector, total, total)
+    along += _products(sector, start, start) + _products(sector, end, end)
+    mixed = _products(pull, total / 2.0, middle)
+    across = _products(length * (arcs.angle + sine), middle, middle)
+    across += _products(length * (arcs.angle - sine), side, side)
     return (
         sector.sum(axis=-1),
         weighted(sector, total) / 2.0 + weighted(pull, middle),
-        along / 6.0 + mixed + np.swapaxes(mixed, -1, -2) + r**4 / 8.0 * across,
+        along / 6.0 + mixed + np.swapaxes(mixed, -1, -2) + r * r * r * r / 8.0 * across,
     )
 
 
@@ -174,17 +178,18 @@ def _vertex_sectors(core: Polyhedron, r: float, arcs: EdgeArcs) -> Moments:
     first = vertex_directions(core, arcs)
     second = solid_angle[..., None, None] * np.eye(3)  # three times int w w dS
     flat = second.reshape(*second.shape[:-2], 9)
-    chord = 2.0 * np.sin(0.5 * arcs.angle)[..., None] * arcs.middle  # int w ds over each arc
+    chord = 2.0 * sine_cosine(0.5 * arcs.angle)[0][..., None] * arcs.middle  # int w ds over each arc
     for end, outward in ((0, arcs.direction), (1, -arcs.direction)):
         swept = chord[..., :, None] * outward[..., None, :]
         add_rows(flat, core.edges[:, end], -swept.reshape(*swept.shape[:-2], 9))
     x = core.vertices
-    mixed = r**4 / 4.0 * np.einsum("...ki,...kj->...ij", x, first)
-    volume = r**3 / 3.0 * solid_angle
+    r3 = r * r * r
+    mixed = r3 * r / 4.0 * (x[..., :, None] * first[..., None, :]).sum(axis=-3)
+    volume = r3 / 3.0 * solid_angle
     return (
         volume.sum(axis=-1),
-        weighted(volume, x) + r**4 / 4.0 * first.sum(axis=-2),
-        np.einsum(PRODUCTS, volume, x, x) + mixed + np.swapaxes(mixed, -1, -2) + r**5 / 15.0 * second.sum(axis=-3),
+        weighted(volume, x) + r3 * r / 4.0 * first.sum(axis=-2),
+        _products(volume, x, x) + mixed + np.swapaxes(mixed, -1, -2) + r3 * r * r / 15.0 * second.sum(axis=-3),
     )
 
 
@@ -205,6 +210,5 @@ def _solid_angles(core: Polyhedron) -> np.ndarray:
     for loop in core.faces:
         corner = rows(core.vertices, loop)
         ahead, behind = np.roll(corner, -1, axis=-2) - corner, np.roll(corner, 1, axis=-2) - corner
-        sine = np.linalg.norm(np.cross(ahead, behind), axis=-1)
-        solid_angle[..., loop] -= np.arctan2(sine, np.einsum("...i,...i->...", ahead, behind))
+        solid_angle[..., loop] -= angle(norm(np.cross(ahead, behind)), dot(ahead, behind))
     return solid_angle

@@ -16,6 +16,7 @@ from dilatedem.geometry import outline as plan
 from dilatedem.geometry.mass import edge_arcs, vertex_directions
 from dilatedem.geometry.polyhedron import Polyhedron, assemble, centroid, convex_hull, prism
 from dilatedem.geometry.polyhedron import volume as polyhedron_volume
+from dilatedem.numerics.plain import dot, norm, root, sine_cosine, turned
 
 # Sides of the polygon that stands for a circle in the outer shape of spheres and capsules, a multiple of 4:
 # 266 vertices on a sphere, its facets 0.9 % of the radius off before the volume is put right.
@@ -26,9 +27,7 @@ SPIKE_LIMIT = plan.MITRE_LIMIT
 SQUARE = 1e-12
 
 
-def outer_polyhedron(
-    core: Polyhedron, radius: float, volume: float, *, centre: ArrayLike = (0.0, 0.0, 0.0)
-) -> Polyhedron:
+def outer_polyhedron(core: Polyhedron, radius: float, volume: float, *, centre: ArrayLike = (0.0, 0.0, 0.0)) -> Polyhedron:
     """Sharp outer shape of `core` dilated by `radius` [m], of exactly the given `volume` [m3].
 
     Its centroid is put at `centre` (3,) [m], the centroid of the dilated body (the origin in body
@@ -60,8 +59,7 @@ def _of_volume(sharp: Polyhedron, volume: float | np.ndarray) -> Polyhedron:
     """Moved to have its centroid at the origin, then scaled to the given volume."""
     sharp = sharp.translated(-centroid(sharp))
     ratio = np.asarray(volume / polyhedron_volume(sharp))
-    # power by power: NumPy's own, over an array, rounds the last digit in another way on some machines
-    factor = np.array([x ** (1.0 / 3.0) for x in ratio.ravel().tolist()])
+    factor = np.array([root(x, 3) for x in ratio.ravel().tolist()])
     return sharp.scaled(factor.reshape(ratio.shape))
 
 
@@ -69,18 +67,19 @@ def _round_hull(core: Polyhedron, radius: float) -> Polyhedron:
     """A sphere or a capsule as two poles with rings of CIRCLE_SIDES points stacked between them."""
     first, last = core.vertices[0], core.vertices[-1]
     axis = last - first if core.dimension == 1 else np.array([0.0, 0.0, 1.0])
-    axis = axis / np.linalg.norm(axis)
+    axis = axis / norm(axis)
     across = np.cross(axis, np.eye(3)[np.abs(axis).argmin()])
-    across /= np.linalg.norm(across)
+    across /= norm(across)
     step = 2.0 * np.pi / CIRCLE_SIDES
-    around = step * np.arange(CIRCLE_SIDES)
-    circle = np.outer(np.cos(around), across) + np.outer(np.sin(around), np.cross(axis, across))
+    sine, cosine = sine_cosine(step * np.arange(CIRCLE_SIDES))
+    circle = cosine[:, None] * across + sine[:, None] * np.cross(axis, across)
 
     latitudes = step * np.arange(1 - CIRCLE_SIDES // 4, CIRCLE_SIDES // 4)
     rings = [(first, latitude) for latitude in latitudes if latitude <= 0.0]
     upper = latitudes >= 0.0 if core.dimension == 1 else latitudes > 0.0  # a sphere has one equator
     rings += [(last, latitude) for latitude in latitudes[upper]]
-    points = [at + radius * (np.sin(lat) * axis + np.cos(lat) * circle) for at, lat in rings]
+    heights = [(at, *sine_cosine(latitude)) for at, latitude in rings]
+    points = [at + radius * (sine * axis + cosine * circle) for at, sine, cosine in heights]
     vertices = np.concatenate([(first - radius * axis)[None], *points, (last + radius * axis)[None]])
 
     here = np.arange(CIRCLE_SIDES)
@@ -98,7 +97,7 @@ def _round_hull(core: Polyhedron, radius: float) -> Polyhedron:
 def _is_prism(core: Polyhedron) -> bool:
     """Whether a core is a plate or a right prism: its first two faces opposite, and all others square to them."""
     up = core.normals[1]
-    if core.normals[0] @ up > SQUARE - 1.0 or (np.abs(core.normals[2:] @ up) > SQUARE).any():
+    if dot(core.normals[0], up) > SQUARE - 1.0 or (np.abs(dot(core.normals[2:], up)) > SQUARE).any():
         return False
     return core.dimension == 2 or len(core.faces) == len(core.faces[0]) + 2
 
@@ -107,13 +106,13 @@ def _offset_prisms(cores: Polyhedron, radius: float) -> Iterator[tuple[np.ndarra
     """A stack of plates or right prisms (every floe) by their outlines; which of them, and their offset shapes."""
     up = cores.normals[:, 1]
     across = np.cross(np.eye(3)[np.abs(up).argmin(axis=1)], up)
-    across /= np.linalg.norm(across, axis=1, keepdims=True)
+    across /= norm(across)[:, None]
     frame = np.stack((across, np.cross(up, across), up), axis=1)
-    local = cores.vertices @ np.swapaxes(frame, 1, 2)
+    local = turned(frame[:, None], cores.vertices)
     low, high = local[..., 2].min(axis=1) - radius, local[..., 2].max(axis=1) + radius
     for which, loop in plan.mitred_together(local[:, cores.faces[1], :2], radius):
-        offset, turn = prism(loop, low[which], high[which]), frame[which]
-        yield which, Polyhedron(offset.vertices @ turn, offset.edges, offset.faces, offset.normals @ turn)
+        offset, back = prism(loop, low[which], high[which]), np.swapaxes(frame[which], 1, 2)[:, None]
+        yield which, Polyhedron(turned(back, offset.vertices), offset.edges, offset.faces, turned(back, offset.normals))
 
 
 def _offset_solid(core: Polyhedron, radius: float) -> Polyhedron:
@@ -127,11 +126,11 @@ def _offset_solid(core: Polyhedron, radius: float) -> Polyhedron:
     arcs = edge_arcs(core)
     middles = ((arcs.middle, core.vertices[core.edges[:, 0]]), (vertex_directions(core, arcs), core.vertices))
     for middle, at in middles:
-        direction = middle / np.linalg.norm(middle, axis=1, keepdims=True)
+        direction = middle / norm(middle)[:, None]
         normals.append(direction)
         points.append(at + SPIKE_LIMIT * radius * direction)
     normal = np.concatenate(normals)
-    offset = np.einsum("ij,ij->i", np.concatenate(points) - inside, normal)
+    offset = dot(np.concatenate(points) - inside, normal)
     size = offset.max()
     try:
         corners = HalfspaceIntersection(np.column_stack((normal, -offset / size)), np.zeros(3)).intersections

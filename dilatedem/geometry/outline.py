@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from dilatedem.numerics.blocks import offsets, take
+from dilatedem.numerics.plain import angle, dot, norm
 
 # Relative to the size of the outline: corners nearer than this to each other, or to the line through their
 # neighbours, are dropped, and so are sides that erosion leaves shorter; a corner that lies inwards by more
@@ -83,9 +84,9 @@ def prepare(outline: ArrayLike) -> np.ndarray:
     size = float(np.ptp(corners, axis=0).max())
     if size == 0.0:
         raise ValueError("the outline has no area: its points coincide")
-    distinct = np.linalg.norm(np.diff(corners, axis=0), axis=1) > RESOLUTION * size
+    distinct = norm(np.diff(corners, axis=0)) > RESOLUTION * size
     corners = corners[np.concatenate(([True], distinct))]
-    if np.linalg.norm(corners[-1] - corners[0]) <= RESOLUTION * size:
+    if norm(corners[-1] - corners[0]) <= RESOLUTION * size:
         corners = corners[:-1]
     if len(corners) < 3 or abs(area(corners)) <= RESOLUTION * size**2:
         raise ValueError("the outline has no area, or crosses itself: give its corners in order around it")
@@ -99,7 +100,8 @@ def prepare(outline: ArrayLike) -> np.ndarray:
             break
         corners = np.delete(corners, height.argmin(), axis=0)
     side = np.roll(corners, -1, axis=0) - corners
-    turn = np.arctan2(_cross(np.roll(side, 1, axis=0), side), (np.roll(side, 1, axis=0) * side).sum(axis=1))
+    behind = np.roll(side, 1, axis=0)
+    turn = angle(_cross(behind, side), dot(behind, side))
     if len(corners) < 3 or abs(turn.sum() - 2.0 * np.pi) > 1e-6:
         raise ValueError("the outline crosses itself: give its corners in order, once around")
     return np.ascontiguousarray(corners)
@@ -113,7 +115,7 @@ def area(outline: np.ndarray) -> float | np.ndarray:
 
 def perimeter(outline: np.ndarray) -> float | np.ndarray:
     """Length [m] around outlines (..., n, 2)."""
-    return np.linalg.norm(np.roll(outline, -1, axis=-2) - outline, axis=-1).sum(axis=-1)
+    return norm(np.roll(outline, -1, axis=-2) - outline).sum(axis=-1)
 
 
 def centroid(outline: np.ndarray) -> np.ndarray:
@@ -148,7 +150,7 @@ def erode_together(outlines: np.ndarray, distance: float) -> Iterator[Eroded]:
     index = np.arange(len(outlines))
     corners = np.array(outlines, dtype=float)
     side = np.roll(corners, -1, axis=1) - corners
-    length = np.linalg.norm(side, axis=2)
+    length = norm(side)
     direction = side / length[..., None]
     shortest = RESOLUTION * length.max(axis=1)
     while len(index):
@@ -162,9 +164,7 @@ def erode_together(outlines: np.ndarray, distance: float) -> Iterator[Eroded]:
         lasting = ~gone & (remaining.min(axis=1) > shortest)
         if lasting.any():
             # corners run along the bisector of the inward normals (-t_y, t_x) of their two sides
-            inward = np.stack(
-                (-direction[..., 1] - behind[..., 1], direction[..., 0] + behind[..., 0]), axis=-1
-            )
+            inward = np.stack((-direction[..., 1] - behind[..., 1], direction[..., 0] + behind[..., 0]), axis=-1)
             moved = corners + distance * inward / (1.0 + cosine)[..., None]
             yield Eroded(index[lasting], moved[lasting])
         going = ~lasting
@@ -187,10 +187,10 @@ def mitred(outline: np.ndarray, distance: float) -> np.ndarray:
 def mitred_together(outlines: np.ndarray, distance: float) -> Iterator[tuple[np.ndarray, np.ndarray]]:
     """`mitred` for many outlines (m, n, 2) at once: which ones (l,), and their corners (l, k, 2), by the corners bevelled."""
     side = np.roll(outlines, -1, axis=1) - outlines
-    after = side / np.linalg.norm(side, axis=2, keepdims=True)
+    after = side / norm(side)[..., None]
     before = np.roll(after, 1, axis=1)
     outward = np.stack((before[..., 1], -before[..., 0]), axis=-1), np.stack((after[..., 1], -after[..., 0]), axis=-1)
-    cosine = np.vecdot(before, after)
+    cosine = dot(before, after)
     half = np.sqrt(np.maximum(0.5 * (1.0 + cosine), 0.0))  # cos(turn/2), the reach of a mitre being 1/half
     acute = half * MITRE_LIMIT < 1.0
     for pattern in np.unique(acute, axis=0):
@@ -254,5 +254,5 @@ def _height_over_neighbours(corners: np.ndarray) -> np.ndarray:
     """(n,) [m] how far each corner lies outside the line through its two neighbours."""
     before, after = np.roll(corners, 1, axis=0), np.roll(corners, -1, axis=0)
     chord = after - before
-    length = np.linalg.norm(chord, axis=1)
+    length = norm(chord)
     return _cross(corners - before, chord) / np.where(length > 0.0, length, 1.0)

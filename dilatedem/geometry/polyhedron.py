@@ -17,6 +17,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.spatial import ConvexHull, QhullError, cKDTree
 
+from dilatedem.numerics.plain import determinant, dot, norm
+
 # Relative to the largest extent of the body: points closer than this are one point, a set thinner than this
 # is flat (or straight), and facets whose vertices lie this near one plane are one face. 3e-8 m for a floe of
 # 3 m: far above the round-off of the hull (1e-14), far below any overlap that carries a force (1e-6 m).
@@ -83,15 +85,13 @@ def convex_hull(points: ArrayLike) -> Polyhedron:
     points = _distinct(points, RESOLUTION * size)
     local = (points - centre) / size
 
-    # Principal axes tell the dimension: the extent along the last ones vanishes for a flat or a straight set.
-    axes = np.linalg.svd(local - local.mean(axis=0), full_matrices=True)[2]
-    principal = local @ axes.T
-    extent = np.ptp(principal, axis=0)
+    along = _axes(local)
+    extent = np.ptp(along, axis=0)
     if extent[1] <= RESOLUTION:
-        ends = np.sort([principal[:, 0].argmin(), principal[:, 0].argmax()])
+        ends = np.sort([along[:, 0].argmin(), along[:, 0].argmax()])
         return assemble(points[ends], ())
     if extent[2] <= RESOLUTION:
-        loop = _flat_loop(principal[:, :2])
+        loop = _flat_loop(along[:, :2])
         ring = np.arange(len(loop))
         return assemble(points[loop], (ring, ring[::-1].copy()))
     return _solid_hull(points, local)
@@ -154,7 +154,7 @@ def assemble(vertices: ArrayLike, faces: Sequence[np.ndarray]) -> Polyhedron:
     base = rows(vertices, np.array([f[0] for f in loops])[face])
     area_vector = np.zeros((*stack, len(loops), 3))
     add_rows(area_vector, face, np.cross(rows(vertices, start) - base, rows(vertices, end) - base))
-    length = np.linalg.norm(area_vector, axis=-1, keepdims=True)
+    length = norm(area_vector)[..., None]
     if not (length > 0.0).all():
         raise ValueError("a face has no area: the points are too close to degenerate")
     return Polyhedron(vertices, edges, loops, area_vector / length)
@@ -202,20 +202,20 @@ def volume(body: Polyhedron) -> float | np.ndarray:
     if body.dimension < 3:
         return np.zeros(body.vertices.shape[:-2])[()]
     corner = rows(body.vertices - body.vertices.mean(axis=-2, keepdims=True), triangles(body)[0])
-    return np.linalg.det(corner).sum(axis=-1) / 6.0
+    return determinant(corner).sum(axis=-1) / 6.0
 
 
 def centroid(body: Polyhedron) -> np.ndarray:
     """Centroid (3,) [m] of a body of dimension 3; of a stack (m, 3)."""
     reference = body.vertices.mean(axis=-2)
     corner = rows(body.translated(-reference).vertices, triangles(body)[0])
-    weight = np.linalg.det(corner)
+    weight = determinant(corner)
     return reference + weighted(weight, corner.sum(axis=-2)) / (4.0 * weight.sum(axis=-1))[..., None]
 
 
 def weighted(weight: np.ndarray, vectors: np.ndarray) -> np.ndarray:
     """Sum over k of weight (..., k) times vectors (..., k, 3), for each body of a stack."""
-    return np.matmul(weight[..., None, :], vectors)[..., 0, :]
+    return (weight[..., None] * vectors).sum(axis=-2)
 
 
 def _directed_edges(faces: tuple[np.ndarray, ...]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -234,6 +234,23 @@ def _distinct(points: np.ndarray, distance: float) -> np.ndarray:
     return points[keep]
 
 
+def _axes(points: np.ndarray) -> np.ndarray:
+    """(n, 3) points in a frame of their own: the first axis along their length, the second along what is widest across it.
+
+    The extent along the last axes vanishes for a straight or a flat set.
+    """
+    first = points[norm(points - points[0]).argmax()]
+    span = points[norm(points - first).argmax()] - first
+    ahead = span / norm(span)
+    beside = points - first - dot(points - first, ahead)[:, None] * ahead
+    widest = beside[norm(beside).argmax()]
+    if norm(widest) <= RESOLUTION:  # a straight set: any direction across will do
+        widest = np.cross(ahead, np.eye(3)[np.abs(ahead).argmin()])
+    across = widest - dot(widest, ahead) * ahead
+    across = across / norm(across)
+    return np.stack([dot(points, axis) for axis in (ahead, across, np.cross(ahead, across))], axis=-1)
+
+
 def _flat_loop(plane_points: np.ndarray) -> np.ndarray:
     """Indices of the corners of the convex hull in the plane, counter-clockwise, none within an edge."""
     loop = ConvexHull(plane_points).vertices
@@ -243,7 +260,7 @@ def _flat_loop(plane_points: np.ndarray) -> np.ndarray:
         for i in range(len(loop)):
             before, at, after = plane_points[loop[[i - 1, i, (i + 1) % len(loop)]]]
             chord, arm = after - before, at - before
-            if abs(chord[0] * arm[1] - chord[1] * arm[0]) <= RESOLUTION * np.linalg.norm(chord):
+            if abs(chord[0] * arm[1] - chord[1] * arm[0]) <= RESOLUTION * norm(chord):
                 loop = np.delete(loop, i)
                 removed = True
                 break
@@ -273,7 +290,7 @@ def _outward(hull: ConvexHull) -> np.ndarray:
     """The hull's triangles (k, 3), counter-clockwise seen from outside."""
     facets = hull.simplices.astype(np.int64)
     a, b, c = (hull.points[facets[:, k]] for k in range(3))
-    inward = np.einsum("ij,ij->i", np.cross(b - a, c - a), hull.equations[:, :3]) < 0.0
+    inward = dot(np.cross(b - a, c - a), hull.equations[:, :3]) < 0.0
     facets[inward] = facets[inward][:, ::-1]
     return facets
 
@@ -289,11 +306,11 @@ def _coplanar_groups(hull: ConvexHull, facets: np.ndarray, local: np.ndarray) ->
     area_vector = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
     group = np.full(len(facets), -1, dtype=np.int64)
     face = 0
-    for seed in np.argsort(-np.linalg.norm(area_vector, axis=1), kind="stable"):
+    for seed in np.argsort(-norm(area_vector), kind="stable"):
         if group[seed] >= 0:
             continue
-        normal = area_vector[seed] / np.linalg.norm(area_vector[seed])
-        in_plane = (np.abs((corner - corner[seed, 0]) @ normal) <= RESOLUTION).all(axis=1)
+        normal = area_vector[seed] / norm(area_vector[seed])
+        in_plane = (np.abs(dot(corner - corner[seed, 0], normal)) <= RESOLUTION).all(axis=1)
         group[seed] = face
         front = [seed]
         while front:

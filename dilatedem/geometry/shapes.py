@@ -15,6 +15,7 @@ from dilatedem.geometry.mass import SolidProperties, dilated_solid
 from dilatedem.geometry.outer import outer_polyhedron
 from dilatedem.geometry.packing import numbered, pack_neighbours, pack_polyhedra
 from dilatedem.geometry.polyhedron import Polyhedron, rows
+from dilatedem.numerics.plain import norm
 
 
 class Kind(IntEnum):
@@ -92,7 +93,7 @@ def pack_shapes(shapes: Sequence[BodyShape], planes: Sequence[np.ndarray], order
     radius, reach, plane_normal = np.zeros(count), np.zeros(count), np.zeros((count, 3))
     for shape, number in _numbered_shapes(shapes, order):
         radius[number] = shape.radius
-        reach[number] = np.linalg.norm(shape.core.stacked().vertices, axis=-1).max(axis=-1) + shape.radius
+        reach[number] = norm(shape.core.stacked().vertices).max(axis=-1) + shape.radius
     plane_normal[convex:] = np.reshape(planes, (-1, 3))
     return Shapes(
         kind=np.array([Kind.CONVEX] * convex + [Kind.HALF_SPACE] * len(planes), np.int64),
@@ -128,7 +129,7 @@ def pack_hulls(shapes: Sequence[BodyShape], order: np.ndarray | None = None) -> 
     height, effective_radius = np.zeros((count, 2)), np.zeros(count)
     for shape, number in _numbered_shapes(shapes, order):
         outer = shape.outer.stacked()
-        effective_radius[number] = np.linalg.norm(outer.vertices, axis=-1).mean(axis=-1)
+        effective_radius[number] = norm(outer.vertices).mean(axis=-1)
         outline = _prism_outlines(outer)
         if outline is not None:
             z = outer.vertices[..., 2]
@@ -154,7 +155,7 @@ def _prism_outlines(outer: Polyhedron) -> np.ndarray | None:
     if len(level) == 0:
         return None
     above = rows(outer.vertices, outer.faces[level[0]])[..., :2]
-    gap = np.linalg.norm(outer.vertices[:, low[0]][:, :, None, :2] - above[:, None], axis=-1).min(axis=1)
+    gap = norm(outer.vertices[:, low[0]][:, :, None, :2] - above[:, None]).min(axis=1)
     return above if (gap <= flat).all() else None
 
 
@@ -163,7 +164,7 @@ def _plan_moments(outline: np.ndarray) -> np.ndarray:
     x, y = outline[..., 0], outline[..., 1]
     x1, y1 = np.roll(x, -1, axis=1), np.roll(y, -1, axis=1)
     twice = x * y1 - x1 * y
-    length = np.hypot(x1 - x, y1 - y)
+    length = norm(np.roll(outline, -1, axis=1) - outline)
     return np.column_stack([
         twice.sum(axis=1) / 2,
         (twice * (x * x + x * x1 + x1 * x1)).sum(axis=1) / 12,
@@ -172,5 +173,5 @@ def _plan_moments(outline: np.ndarray) -> np.ndarray:
         length.sum(axis=1),
         (length * (x + x1)).sum(axis=1) / 2,
         (length * (y + y1)).sum(axis=1) / 2,
-        np.hypot(x, y).max(axis=1),
+        norm(outline).max(axis=1),
     ])  # fmt: skip

@@ -7,6 +7,8 @@ steps of the contacts, *idle* ones the whole span in one step of the same scheme
 be missed: a busy body that is about to leave its room (something hit it) ends the span early.
 """
 
+from math import sqrt
+
 from dilatedem.jit import item
 from dilatedem.motion.integrate import travel
 from dilatedem.state.response import is_free
@@ -40,7 +42,7 @@ def foresee(dt, span, model, bodies, pairs, workspace):
 def _give_room(time, model, bodies, pairs, workspace):
     """Room for all bodies over a time [s]; returns the longest way that one of them would go [m]."""
     solids, path, room, horizon = model.solids, bodies.path, workspace.room, workspace.horizon
-    adrift = time * (pairs.frame[0] ** 2 + pairs.frame[1] ** 2) ** 0.5  # of what stands still, in the frame of the ice
+    adrift = time * sqrt(pairs.frame[0] ** 2 + pairs.frame[1] ** 2)  # of what stands still, in the frame of the ice
     spare = SPARE_ROOM * pairs.limit[0]
     longest = 0.0
     for i in range(len(path)):

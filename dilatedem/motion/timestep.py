@@ -1,7 +1,8 @@
 """The critical time step: how stiff contacts are against how light the bodies are at the point of contact (physics 6).
 
 Before a run nothing touches yet, so two contacts are laid out for each body: its largest face at its worst corner (of a capsule its
-whole length), and a corner hit at a likely speed. During a run `assembled_frequency` adds up the contacts there are.
+whole length), and a corner hit at a likely speed; and what moves already, by its speed or its spin, must not outrun the list of
+pairs. During a run `assembled_frequency` adds up the contacts there are.
 """
 
 from math import sqrt
@@ -9,8 +10,11 @@ from math import sqrt
 import numpy as np
 
 from dilatedem.contact.laws import law_of
+from dilatedem.contact.search.neighbours import SKIN, USABLE
 from dilatedem.jit import item
+from dilatedem.motion.paces import LONGEST_MOVE
 from dilatedem.numerics.blocks import take
+from dilatedem.numerics.plain import dot, norm, root, turned
 from dilatedem.numerics.vector import load
 from dilatedem.state.response import is_free, mobility
 
@@ -37,10 +41,10 @@ def critical_step(model, bodies) -> float:
     held = np.flatnonzero(solids.inverse_mass == 0.0)  # structures and fixed bodies
     stiffest_held = solids.compliance[held].min(initial=np.inf)
     speed = _impact_speed(model, bodies, free)
-    shrink = sqrt(1.0 + damping**2) - damping
+    shrink = sqrt(1.0 + damping * damping) - damping
     mobility, area = _worst_mobility(shapes, solids)[free], _largest_face(shapes)[free]
     compliance, inverse_mass, radius = solids.compliance[free], solids.inverse_mass[free], shapes.radius[free]
-    shortest = np.inf
+    shortest = _outrunning(model, bodies, free)
     # against a body like itself (both give way), and against what does not move
     for moving, together in ((2.0, 2.0 * compliance), (1.0, compliance + stiffest_held)):
         modulus = 1.0 / together
@@ -49,7 +53,7 @@ def critical_step(model, bodies) -> float:
             shortest = min(shortest, 2.0 * shrink / sqrt(resting.max()))
         hertz = moving * inverse_mass * (4.0 / 3.0 * modulus * np.sqrt(radius))
         if hertz.max() > 0.0:
-            depth = (1.25 * speed**2 / hertz.max()) ** 0.4
+            depth = root(1.25 * speed * speed / hertz.max(), 5) ** 2
             shortest = min(shortest, 2.943 * depth / speed / STEPS_PER_CONTACT)
     return shortest
 
@@ -57,10 +61,17 @@ def critical_step(model, bodies) -> float:
 def _impact_speed(model, bodies, free) -> float:
     """A speed [m/s] at which bodies may hit each other: the case's own velocities, or what gravity gives them."""
     setting = model.loads
-    moving = np.linalg.norm(bodies.velocity[free], axis=1).max()
-    current = np.hypot(setting.current_x, setting.current_y)
+    moving = (norm(bodies.velocity[free]) + norm(bodies.angular_velocity[free]) * model.shapes.reach[free]).max()
+    current = norm([setting.current_x, setting.current_y])
     settling = SETTLING_SPEED * np.sqrt(setting.gravity * model.shapes.reach[free].max())
     return max(2.0 * moving, current, settling, 1e-6)
+
+
+def _outrunning(model, bodies, free) -> float:
+    """The step [s] in which the fastest point of a body, as it moves now, would go as far as a step may take it."""
+    reach = model.shapes.reach[free]
+    rate = (np.abs(bodies.velocity[free]).sum(axis=1) + np.abs(bodies.angular_velocity[free]).sum(axis=1) * reach).max()
+    return LONGEST_MOVE * USABLE * SKIN * reach.max() / rate if rate > 0.0 else np.inf
 
 
 def _worst_mobility(shapes, solids) -> np.ndarray:
@@ -69,7 +80,7 @@ def _worst_mobility(shapes, solids) -> np.ndarray:
     for bodies, corners in _rows_by_length(shapes.vertex_start, shapes.vertex):
         for axis in np.eye(3):
             lever = np.cross(corners, axis)
-            turning = np.einsum("bvi,bij,bvj->bv", lever, solids.inverse_inertia[bodies], lever)
+            turning = dot(lever, turned(solids.inverse_inertia[bodies][:, None], lever))
             most[bodies] = np.maximum(most[bodies], turning.max(axis=1))
     return solids.inverse_mass + most
 
@@ -80,7 +91,7 @@ def _largest_face(shapes) -> np.ndarray:
     for faces, loops in _rows_by_length(shapes.loop_start, shapes.loop):
         local = shapes.vertex[loops] - shapes.vertex[loops[:, :1]]
         vector = 0.5 * np.cross(local, np.roll(local, -1, axis=1)).sum(axis=1)
-        area[faces] = np.sqrt(np.vecdot(vector, vector))
+        area[faces] = norm(vector)
     largest = np.zeros(len(shapes.radius))
     np.maximum.at(largest, np.repeat(np.arange(len(largest)), np.diff(shapes.face_start)), area)
     return largest

@@ -2,13 +2,15 @@
 
 import numpy as np
 
+from dilatedem.numerics.plain import norm, sine_cosine
+
 
 def quaternion_from_rotation_vector(rotation) -> np.ndarray:
     """Unit quaternion (4,), scalar first, of a rotation vector (3,) [rad]."""
     rotation = np.asarray(rotation, float)
-    angle = np.linalg.norm(rotation)
-    # np.sinc(x) = sin(pi x)/(pi x) stays exact at zero angle
-    return np.concatenate([[np.cos(0.5 * angle)], 0.5 * np.sinc(0.5 * angle / np.pi) * rotation])
+    angle = norm(rotation)
+    sine, cosine = sine_cosine(0.5 * angle)
+    return np.array([cosine, *(rotation * (sine / angle if angle > 0.0 else 0.5))])
 
 
 def matrix_from_quaternion(q) -> np.ndarray:

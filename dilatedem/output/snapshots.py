@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from dilatedem.numerics.plain import norm
 from dilatedem.output import folder
 from dilatedem.output.observer import Observer
 from dilatedem.output.vtu import SnapshotWriter, wrapped, write_pvd
@@ -51,7 +52,7 @@ class Snapshots(Observer):
         """In the background."""
         domain = self.simulation.case.domain
         periodic = (domain.x_boundary == "periodic", domain.y_boundary == "periodic")
-        cell_data |= {"speed": np.linalg.norm(cell_data["velocity"], axis=1)}
+        cell_data |= {"speed": norm(cell_data["velocity"])}
         writer.write(self.out / name, wrapped(position, domain.size, periodic), orientation, cell_data)
 
     def refresh(self) -> None:

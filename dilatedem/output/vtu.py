@@ -18,6 +18,7 @@ from dilatedem.geometry.packing import PackedPolyhedra, pack_polyhedra, selected
 from dilatedem.geometry.polyhedron import Polyhedron
 from dilatedem.geometry.shapes import Hulls
 from dilatedem.numerics.frames import matrix_from_quaternion
+from dilatedem.numerics.plain import turned
 from dilatedem.output.atomic import replacing, write_text
 
 # Cell data of every snapshot: name -> (type, components).
@@ -82,8 +83,7 @@ class SnapshotWriter:
 
     def _write(self, path, position, orientation, cell_data: dict[str, np.ndarray]) -> None:
         rotation = matrix_from_quaternion(np.reshape(orientation, (-1, 4)))
-        points = np.einsum("nij,nj->ni", rotation[self._owner], self._vertices)
-        points += np.asarray(position)[self._owner]
+        points = turned(rotation[self._owner], self._vertices) + np.asarray(position)[self._owner]
         parts = [
             self._begin,
             _data_array("Points", points),
@@ -112,8 +112,7 @@ def write_structures(path, drawings: Sequence[Sequence[Polyhedron]]) -> None:
 def write_pvd(path, snapshots: Sequence[tuple[float, str]]) -> None:
     """Write the collection: (time [s], file relative to the folder of `path`) per snapshot, atomically."""
     entries = "".join(
-        f'    <DataSet timestep="{time_s:.9g}" group="" part="0" file="{escape(str(file))}"/>\n'
-        for time_s, file in snapshots
+        f'    <DataSet timestep="{time_s:.9g}" group="" part="0" file="{escape(str(file))}"/>\n' for time_s, file in snapshots
     )
     write_text(
         path,

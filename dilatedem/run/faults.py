@@ -2,6 +2,7 @@
 
 import math
 
+from dilatedem.motion.paces import LONGEST_MOVE
 from dilatedem.state.clock import Status
 
 
@@ -13,8 +14,13 @@ def fault(simulation, status: Status) -> str:
     if status == Status.TOO_DEEP:
         cause = f"{names[0]} and {names[1]} overlap by {measure:.3g} m, more than their rounded edges can mean"
     else:
-        moved = f"{measure:.3g} m" if math.isfinite(measure) else "without bound"
-        cause = f"{names[0]} moved {moved} in one step"
+        cause = f"{names[0]} moved without bound in one step"
+        if math.isfinite(measure):
+            limit = LONGEST_MOVE * float(simulation.state.pairs.limit[0])
+            cause = (
+                f"{names[0]} moved {measure:.3g} m in one step, farther than {limit:.3g} m, a step's most; where such speeds (spins) are "
+                f"meant, set time.step to at most {simulation.dt * limit / measure:.2g} s"
+            )
     return f"stopped at t = {simulation.time_s:.6g} s: {cause}"
 
 

@@ -4,16 +4,18 @@ import numpy as np
 
 from dilatedem.case.schema import Case
 from dilatedem.errors import CaseError
+from dilatedem.geometry.outline import perimeter
 from dilatedem.geometry.shapes import pack_hulls, pack_shapes
 from dilatedem.numerics.blocks import offsets
 from dilatedem.numerics.frames import matrix_from_quaternion
+from dilatedem.numerics.plain import inverse, turned
 from dilatedem.scene.place import Scene, periodic_axes
 from dilatedem.state.bodies import Bodies, Solids, bodies_at_rest
 from dilatedem.state.charts import Along, Charts
 from dilatedem.state.model import Model
 from dilatedem.state.setting import CONTACT_SETTINGS, ContactSetting, Surroundings
 from dilatedem.structures.held import HeldBody
-from dilatedem.structures.kind import Part, perimeter
+from dilatedem.structures.kind import Part
 from dilatedem.water.loads import WORKS, load_setting
 
 #: a load map's heights reach from so many ice thicknesses below the water level to so many above
@@ -96,13 +98,13 @@ def _solids(case: Case, scene: Scene) -> Solids:
     inertia[:bodies] = scene.unit_inertia() * scene.density[:, None, None]
     moving = np.flatnonzero(free)
     inverse_mass[moving] = 1.0 / mass[moving]
-    inverse_inertia[moving] = np.linalg.inv(inertia[moving])
+    inverse_inertia[moving] = inverse(inertia[moving])
     return Solids(inverse_mass, mass, inertia, inverse_inertia, compliance)
 
 
 def _compliance(material) -> float:
     """A body's term of Liu 2015, Eq. (7) [1/Pa]."""
-    return (1.0 - material.poisson_ratio**2) / material.elastic_modulus
+    return (1.0 - material.poisson_ratio * material.poisson_ratio) / material.elastic_modulus
 
 
 def initial_bodies(case: Case, scene: Scene, model: Model) -> Bodies:
@@ -118,7 +120,8 @@ def initial_bodies(case: Case, scene: Scene, model: Model) -> Bodies:
         bodies.velocity[i], bodies.angular_velocity[i] = given.velocity, given.angular_velocity
         if not given.fixed:
             turn = matrix_from_quaternion(scene.orientation[i])
-            bodies.angular_momentum[i] = turn @ model.solids.inertia[i] @ turn.T @ given.angular_velocity
+            spin = turned(turn.T, np.asarray(given.angular_velocity, float))
+            bodies.angular_momentum[i] = turned(turn, turned(model.solids.inertia[i], spin))
     for i, part in enumerate(parts, start=scene.count):
         bodies.position[i], bodies.orientation[i] = part.position, part.orientation
     bodies.middle_velocity[:] = bodies.velocity

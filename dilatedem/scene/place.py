@@ -16,6 +16,7 @@ from dilatedem.geometry.floes import floe_shapes
 from dilatedem.geometry.polyhedron import convex_hull, prism
 from dilatedem.geometry.shapes import BodyShape
 from dilatedem.numerics.frames import matrix_from_quaternion, quaternion_from_rotation_vector
+from dilatedem.numerics.plain import turned
 from dilatedem.state.storage import MOST_CORNERS
 from dilatedem.structures.held import HeldBody
 from dilatedem.structures.kind import Chart, Part, Structure
@@ -208,7 +209,7 @@ def _explicit_body(case: Case, number: int, body: Body) -> PlacedBody:
     if body.position is not None:
         position[: len(body.position)] = body.position
     orientation = quaternion_from_rotation_vector(body.rotation)
-    corners = shape.outer.vertices @ matrix_from_quaternion(orientation).T + position
+    corners = turned(matrix_from_quaternion(orientation), shape.outer.vertices) + position
     seen = convex_hull(corners * [1.0, 1.0, 0.0]).vertices[:, :2]
     seen = seen if plan.area(seen) > 0.0 else seen[::-1]
     return PlacedBody(shape, position, orientation, seen, float(plan.area(seen)))

@@ -3,6 +3,8 @@
 Every item writes its own rows only, so that results do not depend on how many parts there are.
 """
 
+from math import sqrt
+
 from dilatedem.contact.collide import collide
 from dilatedem.contact.sums import sum_contacts
 from dilatedem.contact.tally import book_contact
@@ -26,7 +28,7 @@ def part(count, block, blocks):
 def drift_block(team, block, blocks, chosen, count, dt, reach, solids, bodies, pairs, workspace):
     """Move the bodies of a part; one that moved too far, and whether one has passed its horizon, go to the block's places."""
     path, horizon = bodies.path, workspace.horizon
-    adrift = dt * (pairs.frame[0] ** 2 + pairs.frame[1] ** 2) ** 0.5
+    adrift = dt * sqrt(pairs.frame[0] ** 2 + pairs.frame[1] ** 2)
     longest = LONGEST_MOVE * pairs.limit[0]
     fault, leap, surprise = -1, 0.0, False
     first, last = part(count, block, blocks)
@@ -78,9 +80,7 @@ def _turn_shapes(block, k, shapes, orientation, pairs, workspace):
 
 
 @item
-def float_block(
-    team, block, blocks, chosen, count, awake, dt, time, floating, hulls, solids, setting, bodies, pairs, workspace
-):
+def float_block(team, block, blocks, chosen, count, awake, dt, time, floating, hulls, solids, setting, bodies, pairs, workspace):
     """All loads on the bodies of a part, and the second half of their kick; dt = 0: the loads alone."""
     first, last = part(count, block, blocks)
     if first == last:

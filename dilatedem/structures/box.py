@@ -10,6 +10,7 @@ from dilatedem.geometry.polyhedron import Polyhedron, prism
 from dilatedem.geometry.shapes import BodyShape
 from dilatedem.keys import Fault, Name, PoissonRatio, Positive, Size2, Vector2, key
 from dilatedem.numerics.frames import quaternion_from_rotation_vector
+from dilatedem.numerics.plain import norm, sine_cosine
 from dilatedem.state.charts import Along
 from dilatedem.structures.kind import Chart, Part, Sketch, Structure, modulus_key, name_key, ratio_key
 
@@ -45,9 +46,9 @@ class Box(Structure):
 
     def _outline(self) -> np.ndarray:
         """(4, 2) [m] outer corners in plan, from its middle."""
-        angle = math.radians(self.rotation)
+        sine, cosine = sine_cosine(math.radians(self.rotation))
         x, y = (0.5 * np.array(self.size) * CORNERS).T
-        return np.column_stack([math.cos(angle) * x - math.sin(angle) * y, math.sin(angle) * x + math.cos(angle) * y])
+        return np.column_stack([cosine * x - sine * y, sine * x + cosine * y])
 
     def parts(self) -> list[Part]:
         """One dilated box."""
@@ -55,7 +56,7 @@ class Box(Structure):
         core = prism((half[:2] - radius) * CORNERS, radius - half[2], half[2] - radius)
         turn = quaternion_from_rotation_vector([0.0, 0.0, math.radians(self.rotation)])
         middle = np.array([*self.center, 0.5 * (self.bottom + self.top)])
-        return [Part(middle, turn, BodyShape.of_core(core, radius)[0], plan_reach=float(np.hypot(*half[:2])))]
+        return [Part(middle, turn, BodyShape.of_core(core, radius)[0], plan_reach=float(norm(half[:2])))]
 
     def obstacles(self, thickness: float) -> list[Obstacle]:
         return [Region(self._outline() + self.center)]

@@ -19,10 +19,12 @@ from typing import Any
 import numpy as np
 
 from dilatedem.field.obstacles import Obstacle
+from dilatedem.geometry.outline import perimeter
 from dilatedem.geometry.polyhedron import Polyhedron
 from dilatedem.geometry.shapes import BodyShape
 from dilatedem.keys import Table, key
 from dilatedem.numerics.frames import quaternion_from_rotation_vector
+from dilatedem.numerics.plain import sine_cosine
 from dilatedem.state.charts import Along
 
 #: heights between which structures that reach farther than any floe are drawn, m
@@ -144,11 +146,5 @@ def ratio_key() -> Any:
 
 def circle(center, radius: float, sides: int = CIRCLE_SIDES) -> np.ndarray:
     """(sides, 2) [m] corners on a circle, counter-clockwise."""
-    angle = np.arange(sides) * (2.0 * np.pi / sides)
-    return np.asarray(center, dtype=float) + radius * np.column_stack([np.cos(angle), np.sin(angle)])
-
-
-def perimeter(outline: np.ndarray) -> float:
-    """Length of a closed outline (k, 2) [m]."""
-    return float(np.hypot(*(np.roll(outline, -1, axis=0) - outline).T).sum())
-
+    sine, cosine = sine_cosine(np.arange(sides) * (2.0 * np.pi / sides))
+    return np.asarray(center, dtype=float) + radius * np.column_stack([cosine, sine])

@@ -1,6 +1,5 @@
 """An unbounded plane: a wall, a slope, a sea bed."""
 
-import math
 from typing import Literal
 
 import numpy as np
@@ -8,6 +7,7 @@ import numpy as np
 from dilatedem.field.obstacles import HalfPlane, Obstacle
 from dilatedem.geometry.polyhedron import Polyhedron, convex_hull
 from dilatedem.keys import Fault, Name, PoissonRatio, Positive, Vector3, key
+from dilatedem.numerics.plain import norm
 from dilatedem.state.charts import Along
 from dilatedem.structures.kind import (
     DRAWN_BOTTOM,
@@ -43,7 +43,7 @@ class Plane(Structure):
     poisson_ratio: PoissonRatio = ratio_key()
 
     def faults(self) -> list[Fault]:
-        if math.hypot(*self.normal) == 0.0:
+        if norm(self.normal) == 0.0:
             return [(("normal",), "must not be zero: it points from the plane towards the ice")]
         return []
 
@@ -52,11 +52,11 @@ class Plane(Structure):
         return np.array([*self.point[:2], 0.0])
 
     def parts(self) -> list[Part]:
-        normal = np.array(self.normal) / np.linalg.norm(self.normal)
+        normal = np.array(self.normal) / norm(self.normal)
         return [Part(np.array(self.point), UPRIGHT, normal=normal)]
 
     def obstacles(self, thickness: float) -> list[Obstacle]:
-        level = math.hypot(*self.normal[:2])
+        level = float(norm(self.normal[:2]))
         if level == 0.0:  # a level plane bounds no floe in plan
             return []
         across, slope = np.array(self.normal[:2]) / level, self.normal[2] / level
@@ -66,7 +66,7 @@ class Plane(Structure):
 
     def chart(self, extent: float) -> Chart:
         across = np.cross([0.0, 0.0, 1.0], self.normal)
-        length = np.linalg.norm(across)
+        length = norm(across)
         axis = across / length if length > 0.0 else np.array([1.0, 0.0, 0.0])
         zero = "horizontal coordinate along the plane, from center_m in the direction of axis"
         return Chart(Along.LINE, "Distance along the plane", zero, origin=np.array(self.point), axis=axis, half=0.5 * extent)
@@ -76,8 +76,8 @@ class Plane(Structure):
 
     def sketch(self, extent: float) -> Sketch | None:
         normal, point = np.array(self.normal), np.array(self.point)
-        steep = math.hypot(normal[0], normal[1])
-        if steep < LEVEL * np.linalg.norm(normal):
+        steep = norm(normal[:2])
+        if steep < LEVEL * norm(normal):
             return None
         across = normal[:2] / steep
         # on the plane at z = 0: from its point down the slope
@@ -93,11 +93,11 @@ def plate(point, normal, extent: float) -> Polyhedron:
     Steep plates are cut at the heights between which structures are drawn.
     """
     point, normal = np.asarray(point, dtype=float), np.asarray(normal, dtype=float)
-    normal = normal / np.linalg.norm(normal)
+    normal = normal / norm(normal)
     along = np.cross([0.0, 0.0, 1.0], normal)
-    if np.linalg.norm(along) < 1e-9:  # level plane: no direction along it is special
+    if norm(along) < 1e-9:  # level plane: no direction along it is special
         along = np.array([1.0, 0.0, 0.0])
-    along /= np.linalg.norm(along)
+    along /= norm(along)
     upward = np.cross(normal, along)  # steepest ascent, for a plane that leans either way
     half = 0.5 * extent
     low = high = half

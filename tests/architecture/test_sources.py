@@ -1,5 +1,6 @@
 """Habits of the sources that no linter knows: no paths of one machine, files of a size that can be read in one go."""
 
+import ast
 import re
 from pathlib import Path
 
@@ -34,3 +35,52 @@ def test_a_module_can_be_read_in_one_go(path):
     text = path.read_text(encoding="utf-8")
     assert len(text.splitlines()) <= LONGEST_MODULE
     assert not re.fullmatch(r"utils?|helpers?|managers?|misc|common", path.stem)
+
+
+#: rooms whose numbers a run follows from: they must come out alike on every processor (see dilatedem/numerics/plain.py)
+DETERMINED = (
+    "contact",
+    "events",
+    "field",
+    "geometry",
+    "jit",
+    "motion",
+    "numerics",
+    "output",
+    "scene",
+    "state",
+    "step",
+    "structures",
+    "water",
+)
+#: what BLAS, LAPACK and NumPy's vector code do as the processor has it
+ROUNDED = {
+    "linalg", "matmul", "dot", "vdot", "vecdot", "matvec", "vecmat", "inner", "tensordot", "einsum", "sin", "cos", "tan", "sinc",
+    "arcsin", "arccos", "arctan", "arctan2", "hypot", "exp", "exp2", "expm1", "log", "log2", "log10", "log1p", "power",
+    "float_power", "cbrt", "sinh", "cosh", "tanh",
+}  # fmt: skip
+
+
+def rounded_by_processor(path: Path) -> list[str]:
+    """Where a module calls what rounds as the processor has it: functions of `np`, and `@`."""
+    found = []
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name) and node.value.id == "np" and node.attr in ROUNDED:
+            found.append(f"{path.name}:{node.lineno}: np.{node.attr}")
+        if isinstance(node, ast.BinOp | ast.AugAssign) and isinstance(node.op, ast.MatMult):
+            found.append(f"{path.name}:{node.lineno}: @")
+    return found
+
+
+@pytest.mark.parametrize("room", DETERMINED)
+def test_what_a_run_follows_from_is_rounded_alike_on_every_processor(room):
+    modules = sorted((ROOT / "dilatedem" / room).rglob("*.py"))
+    assert modules
+    found = [line for path in modules for line in rounded_by_processor(path)]
+    assert not found, "use dilatedem.numerics.plain"
+
+
+def test_the_search_for_such_calls_finds_them(tmp_path):
+    path = tmp_path / "module.py"
+    path.write_text("import numpy as np\na = np.linalg.det(b) + np.sin(c)\nd = e @ f\n", encoding="utf-8")
+    assert len(rounded_by_processor(path)) == 3

@@ -23,13 +23,14 @@ FILES = ("forces.csv", "energy.csv", "bodies.csv", "snapshots/*.vtu")
 ENDS = (0, 3)
 
 
-def record(out: Path, cases: list[str]) -> None:
+def record(out: Path, cases: list[str], settings: list[str]) -> None:
     """Run all cases into `out` and write digests.json there."""
     digests = {}
     for case in cases:
         for model in MODELS:
             folder = out / f"{Path(case).stem}-{model}"
-            command = [sys.executable, "-m", "dilatedem.cli", "run", str(ROOT / case), "--set", f"contact.model={model}"]
+            command = [sys.executable, "-m", "dilatedem.cli", "run", str(ROOT / case)]
+            command += [word for setting in [f"contact.model={model}", *settings] for word in ("--set", setting)]
             ended = subprocess.run([*command, "--quiet", "--overwrite", "--out", str(folder)], check=False, env=os.environ)
             if ended.returncode not in ENDS:
                 raise SystemExit(f"{case} with {model}: exit code {ended.returncode}")
@@ -56,9 +57,12 @@ def main() -> None:
     parser.add_argument("action", choices=("record", "compare"))
     parser.add_argument("folders", nargs="+", type=Path)
     parser.add_argument("--case", action="append", help="only these cases; again for more")
+    parser.add_argument(
+        "--set", action="append", default=[], help="changes a key of all cases, as of `dilatedem run`; again for more"
+    )
     given = parser.parse_args()
     if given.action == "record":
-        record(given.folders[0], given.case or list(CASES))
+        record(given.folders[0], given.case or list(CASES), given.set)
     else:
         sys.exit(compare(*given.folders) > 0)
 

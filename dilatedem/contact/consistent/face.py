@@ -16,14 +16,15 @@ from dilatedem.numerics.vector import add, along, cross, dot, scale, sub, tangen
 BETA = 1.018
 #: rows of `scratch` that hold the fences that cut and the corners of b in the contact plane, until the caps' sides are laid there
 FENCES, BORDER = 4, 5
-#: distance, m, by which face b reaches beyond its own border in the clipping. Floes at one height have borders that coincide
-#: exactly; round-off would choose whose border cuts the patch, and with it the side to which its pressure pushes
-MARGIN = 1e-4
+#: distance by which face b reaches beyond its own border in the clipping, over the sum of the radii: 0.1 mm for radii of 0.04 m.
+#: Floes at one height have borders that coincide exactly; round-off would choose whose border cuts the patch, and with it the side
+#: to which its pressure pushes
+MARGIN = 1.25e-3
 #: minus the cosine between two sides of face b beyond which the border moved out is cut off at their corner: 60 degrees, where it
-#: reaches 2 MARGIN, as far as at any sharper one then
+#: reaches two margins, as far as at any sharper one then
 SHARPEST = 0.5
-#: distance, m, within which a corner of the clipped patch is on the side that cut it
-ON = 1e-10
+#: distance, in margins, within which a corner of the clipped patch is on the side that cut it
+ON = 1e-4
 #: cosine of the angle between the faces beyond which they do not press face on face
 STEEP = 0.1
 
@@ -106,7 +107,7 @@ def _bevel(eu, ev, fu, fv):
 @item
 def _patch(scratch, count_a, count_b, origin, t1, t2, normal, reach):
     """Clip face a by the sides of face b, then by where the overlap ends; returns the corner count, the buffer that holds the patch
-    and the number of fences that cut it (a, b, limit in FENCES): sides of b moved out by MARGIN, bevels of its sharp corners.
+    and the number of fences that cut it (a, b, limit in FENCES): sides of b moved out by the margin, bevels of its sharp corners.
 
     Rows: u, v and the overlap.
     """
@@ -116,7 +117,7 @@ def _patch(scratch, count_a, count_b, origin, t1, t2, normal, reach):
     for i in range(count_b):
         d = sub(corner_of(scratch, 1, i), origin)
         scratch[BORDER, i, 0], scratch[BORDER, i, 1] = dot(d, t1), dot(d, t2)
-    count, now, fences = count_a, 0, 0
+    count, now, fences, margin = count_a, 0, 0, MARGIN * reach
     for k in range(count_b):
         j = k + 1 if k + 1 < count_b else 0
         p, q, u, v = scratch[BORDER, k, 0], scratch[BORDER, k, 1], scratch[BORDER, j, 0], scratch[BORDER, j, 1]
@@ -124,14 +125,14 @@ def _patch(scratch, count_a, count_b, origin, t1, t2, normal, reach):
         # how far out the patch reaches, times the length of the side: no root where it does not, and one comparison: where borders
         # coincide round-off would choose between two
         out, square = _outmost(scratch, now, count, ev, -eu) - (ev * p - eu * q), eu * eu + ev * ev
-        if out * abs(out) > MARGIN * MARGIN * square:
+        if out * abs(out) > margin * margin * square:
             unit = 1.0 / sqrt(square)
             a, b = ev * unit, -eu * unit
-            count, now, fences = _clip(scratch, now, count, fences, a, b, a * p + b * q + MARGIN)
+            count, now, fences = _clip(scratch, now, count, fences, a, b, a * p + b * q + margin)
         j = j + 1 if j + 1 < count_b else 0
         sharp, a, b = _bevel(eu, ev, scratch[BORDER, j, 0] - u, scratch[BORDER, j, 1] - v)
         if sharp and count > 0:
-            limit = a * u + b * v + MARGIN / sqrt(0.5 * (1.0 - SHARPEST))
+            limit = a * u + b * v + margin / sqrt(0.5 * (1.0 - SHARPEST))
             if _outmost(scratch, now, count, a, b) > limit:
                 count, now, fences = _clip(scratch, now, count, fences, a, b, limit)
         if count < 3:
@@ -254,11 +255,12 @@ def _border(scratch, now, count, k, reach, wrench, plane, pressure):
     """Add the push along the contact plane where the patch ends at fence k."""
     a, b, limit = scratch[FENCES, k, 0], scratch[FENCES, k, 1], scratch[FENCES, k, 2]
     x, y = scratch[now, count - 1, 0], scratch[now, count - 1, 1]
-    on = abs(a * x + b * y - limit) <= ON
+    near = ON * MARGIN * reach
+    on = abs(a * x + b * y - limit) <= near
     for i in range(count):
         x1, y1, on1 = x, y, on
         x, y = scratch[now, i, 0], scratch[now, i, 1]
-        on = abs(a * x + b * y - limit) <= ON
+        on = abs(a * x + b * y - limit) <= near
         if on and on1:
             wrench = push_out(wrench, x1, y1, x, y, a, b, reach, plane, pressure)
     return wrench

@@ -90,11 +90,11 @@ def _plan(corner, origin, t1, t2):
 
 
 @device
-def _side(p, q):
-    """A side of b's border: its vector, how far out from the origin it is moved by MARGIN times its length, and its length."""
+def _side(p, q, margin):
+    """A side of b's border: its vector, how far out from the origin it is, moved by `margin`, times its length, and its length."""
     eu, ev = q[0] - p[0], q[1] - p[1]
     length = sqrt(eu * eu + ev * ev)
-    return eu, ev, ev * p[0] - eu * p[1] + MARGIN * length, length
+    return eu, ev, ev * p[0] - eu * p[1] + margin * length, length
 
 
 @device
@@ -118,11 +118,11 @@ def _within(four, patch, fence, side):
 
 
 @device
-def _patch(patch, border):
+def _patch(patch, border, margin):
     """What of face a, `patch`, lies over face b, `border`, and presses; whether it has four corners; fences as of `_cut`."""
     end, (p, q, r, s) = (0.0, 0.0), border
     fence = (end, end, end, end)
-    one, two, three, last = _side(p, q), _side(q, r), _side(r, s), _side(s, p)
+    one, two, three, last = _side(p, q, margin), _side(q, r, margin), _side(r, s, margin), _side(s, p, margin)
     if _sharp(one, two) or _sharp(two, three) or _sharp(three, last) or _sharp(last, one):
         return False, patch, fence
     four, patch, fence = _within(True, patch, fence, one)
@@ -187,7 +187,7 @@ def press_four(corners_a, normal_a, corners_b, normal_b, offset, reach, overlap,
         # seen from b's side a's loop runs clockwise
         (_flat(s, origin, t1, t2, normal_b, reach), _flat(r, origin, t1, t2, normal_b, reach),
          _flat(q, origin, t1, t2, normal_b, reach), _flat(p, origin, t1, t2, normal_b, reach)),
-        ((0.0, 0.0), _plan(l, k, t1, t2), _plan(m, k, t1, t2), _plan(n, k, t1, t2)),
+        ((0.0, 0.0), _plan(l, k, t1, t2), _plan(m, k, t1, t2), _plan(n, k, t1, t2)), MARGIN * reach,
     )  # fmt: skip
     if not four:
         return nothing

@@ -9,6 +9,7 @@ from dilatedem.contact.consistent.press import DEEPEST_SHARE, press_consistent
 from dilatedem.contact.liu2015 import law as liu2015
 from dilatedem.contact.spring import rescaled
 from dilatedem.jit import device, item
+from dilatedem.numerics.plain import norm
 from dilatedem.numerics.vector import dot
 
 MEMORY = ("wrung", "grip")
@@ -50,12 +51,12 @@ def resting_stiffness(shapes, free, area, modulus, inverse_mass, speed):
 def _line_stiffness(shapes, i: int, modulus: float, inverse_mass: float, speed: float) -> float:
     """Tangent stiffness [N/m] of a capsule that lies along a flat, pressed in by an impact at `speed`; 0 for a sphere."""
     ends = shapes.vertex[shapes.vertex_start[i] : shapes.vertex_start[i + 1]]
-    length = float(np.linalg.norm(ends[-1] - ends[0]))
+    length = float(norm(ends[-1] - ends[0]))
     if length == 0.0 or modulus == 0.0:
         return 0.0
     stiffness = modulus * length
     for _ in range(4):
         overlap = speed / sqrt(inverse_mass * stiffness)
-        compliance, _ = line_compliance.py_func(length**2 / (shapes.radius[i] * overlap))
+        compliance, _ = line_compliance.py_func(length * length / (shapes.radius[i] * overlap))
         stiffness = pi * modulus * length / (compliance - 0.5)
     return stiffness

@@ -4,7 +4,7 @@ from math import sqrt
 
 from dilatedem.jit import device
 
-#: sine of the angle of two sides of a patch, and length of one, m, below which nothing is divided by them
+#: sine of the angle of two sides of a patch, and length of one over that past the border, below which nothing is divided by them
 NEEDLE = 1e-9
 #: sine of the angle of two sides of a patch down to which a quick look tells what its rim can press
 SLENDER = 0.5
@@ -79,7 +79,7 @@ def strongest_rim(polygon, count, beyond, lift, overlap):
                 way = min(way, -start * length / fall)
                 deepest = start
             else:
-                deepest = min(overlap, start + fall * way / max(length, NEEDLE))
+                deepest = min(overlap, start + fall * way / max(length, NEEDLE * beyond))
             second += way * deepest * deepest
             further += way
         most, longest = max(most, second), max(longest, length + further)

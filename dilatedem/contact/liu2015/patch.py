@@ -18,11 +18,10 @@ EDGE_CROSSING, EDGE_PARALLEL = int(Mode.EDGE_CROSSING), int(Mode.EDGE_PARALLEL)
 EDGE_FACE, FACE_FACE = int(Mode.EDGE_FACE), int(Mode.FACE_FACE)
 
 
-
-#: distance, m, by which a feature may lie outside a face and still be on it. Where the normal leans a little from a face's own, the
-#: closest point is on the face's rim, *exactly* on the clipping line, and round-off would choose the mode; a micrometre is above
-#: the error of the distance search and below any detail of a floe.
-RIM = 1e-6
+#: distance by which a feature may lie outside a face and still be on it, over the reach of the smaller body. Where the normal leans
+#: a little from a face's own, the closest point is on the face's rim, *exactly* on the clipping line, and round-off would choose
+#: the mode; a micrometre for a floe of 3 m is above the error of the distance search and below any detail of a floe.
+RIM = 5e-7
 
 ORIGIN = (0.0, 0.0, 0.0)
 
@@ -37,8 +36,9 @@ def _point(kind_a, kind_b):
 
 
 @item
-def _clip_by_face(vertex, shapes, face, origin, t1, t2, turn, source, count, target):
-    """Clip a polygon by the sides of a face; turn: 1 for a face seen counter-clockwise, -1 for clockwise. Returns count, side."""
+def _clip_by_face(vertex, shapes, face, origin, t1, t2, turn, rim, source, count, target):
+    """Clip a polygon by the sides of a face, moved out by `rim` [m]; turn: 1 for a face seen counter-clockwise, -1 for clockwise.
+    Returns count, side."""
     first, last = shapes.loop_start[face], shapes.loop_start[face + 1]
     swapped = False
     for i in range(first, last):
@@ -46,7 +46,7 @@ def _clip_by_face(vertex, shapes, face, origin, t1, t2, turn, source, count, tar
         q = add(origin, load(vertex, shapes.loop[i + 1 if i + 1 < last else first]))
         pu, pv = dot(p, t1), dot(p, t2)
         eu, ev = turn * (dot(q, t1) - pu), turn * (dot(q, t2) - pv)
-        limit = ev * pu - eu * pv + RIM * (abs(eu) + abs(ev))
+        limit = ev * pu - eu * pv + rim * (abs(eu) + abs(ev))
         if swapped:
             count = clip_polygon(target, count, source, ev, -eu, 0.0, limit)
         else:
@@ -68,7 +68,7 @@ def _surface(vertex, face_normal, shapes, face, origin, normal, t1, t2, radius):
 
 
 @item
-def _face_on_face(vertex, shapes, face_a, face_b, offset, normal, t1, t2, ra, plane, scratch):
+def _face_on_face(vertex, shapes, face_a, face_b, offset, normal, t1, t2, ra, plane, rim, scratch):
     """Penetrating polygon of two faces: area, extent, width before the gap was looked at, centroid u, v, height of a there.
 
     plane: height of b's dilated surface h0, hu, hv; face_b < 0: it has no sides.
@@ -81,7 +81,7 @@ def _face_on_face(vertex, shapes, face_a, face_b, offset, normal, t1, t2, ra, pl
         source[i, 0], source[i, 1], source[i, 2] = dot(p, t1), dot(p, t2), dot(p, normal) + ra
     swapped = False
     if face_b >= 0:
-        count, swapped = _clip_by_face(vertex, shapes, face_b, offset, t1, t2, -1.0, source, count, target)
+        count, swapped = _clip_by_face(vertex, shapes, face_b, offset, t1, t2, -1.0, rim, source, count, target)
     if swapped:
         source, target = target, source
     whole, _, _, _, extent = polygon_centroid(source, count)
@@ -93,7 +93,7 @@ def _face_on_face(vertex, shapes, face_a, face_b, offset, normal, t1, t2, ra, pl
 
 
 @item
-def _edge_patch(vertex, shapes, p, q, rise, face, origin, side, normal, t1, t2, plane, narrow, overlap):
+def _edge_patch(vertex, shapes, p, q, rise, face, origin, side, normal, t1, t2, plane, rim, narrow, overlap):
     """Part of the edge p q that penetrates a face: mode (-1: none), point of application, overlap there, length [m].
 
     p, q: ends, relative to a's centroid; rise: height of the edge's dilated surface over its axis, along the normal; side: 1 where
@@ -111,8 +111,8 @@ def _edge_patch(vertex, shapes, p, q, rise, face, origin, side, normal, t1, t2, 
             su, sv = dot(s, t1), dot(s, t2)
             # seen along the normal a's faces run counter-clockwise, b's clockwise
             eu, ev = -side * (dot(e, t1) - su), -side * (dot(e, t2) - sv)
-            rim = RIM * (abs(eu) + abs(ev))
-            low, high = clip_interval(low, high, ev * du - eu * dv, ev * (pu - su) - eu * (pv - sv) - rim)
+            out = ev * (pu - su) - eu * (pv - sv) - rim * (abs(eu) + abs(ev))
+            low, high = clip_interval(low, high, ev * du - eu * dv, out)
     h0, hu, hv = plane
     gap_p = side * (h0 + hu * pu + hv * pv - dot(p, normal) - rise)
     gap_q = side * (h0 + hu * (pu + du) + hv * (pv + dv) - dot(q, normal) - rise)
@@ -161,6 +161,7 @@ def contact_patch(vertex, face_normal, shapes, corners, corner_a, corner_b, a, b
     ra, rb = shapes.radius[a], shapes.radius[b]
     middle = along(scale(0.5, add(pa, pb)), 0.5 * (ra - rb), normal)
     half_space = shapes.kind[b] != 0
+    rim = RIM * min(shapes.reach[a], shapes.reach[b])  # a half space, whose reach is 0, has none
     narrow = sqrt((ra if half_space else min(ra, rb)) * overlap)
     t1, t2 = tangents(normal)
     kind_a, i, j = support_feature(vertex, face_normal, shapes, a, corner_a, max(corners, 1), normal)
@@ -174,7 +175,7 @@ def contact_patch(vertex, face_normal, shapes, corners, corner_a, corner_b, a, b
             plane = _surface(vertex, face_normal, shapes, m, offset, normal, t1, t2, -rb)
 
     if kind_a == FACE and kind_b == FACE:
-        area, extent, width, u, v, h = _face_on_face(vertex, shapes, i, m, offset, normal, t1, t2, ra, plane, scratch)
+        area, extent, width, u, v, h = _face_on_face(vertex, shapes, i, m, offset, normal, t1, t2, ra, plane, rim, scratch)
         if area > 0.0:
             hb = plane[0] + plane[1] * u + plane[2] * v
             point = along(along(scale(u, t1), v, t2), 0.5 * (h + hb), normal)
@@ -185,20 +186,24 @@ def contact_patch(vertex, face_normal, shapes, corners, corner_a, corner_b, a, b
             return VERTEX_FACE, ra <= rb, point, overlap, 1.0, 0.0
     elif kind_a == EDGE and kind_b == FACE:
         p, q = load(vertex, i), load(vertex, j)
-        mode, point, depth, length = _edge_patch(vertex, shapes, p, q, ra, m, offset, 1.0, normal, t1, t2, plane, narrow, overlap)
+        mode, point, depth, length = _edge_patch(
+            vertex, shapes, p, q, ra, m, offset, 1.0, normal, t1, t2, plane, rim, narrow, overlap
+        )
         if mode >= 0:
             return mode, True, point, depth, length, 0.0
     elif kind_a == FACE and kind_b == EDGE:
         p, q = add(offset, load(vertex, m)), add(offset, load(vertex, n))
         plane = _surface(vertex, face_normal, shapes, i, ORIGIN, normal, t1, t2, ra)
-        mode, point, depth, length = _edge_patch(vertex, shapes, p, q, -rb, i, ORIGIN, -1.0, normal, t1, t2, plane, narrow, overlap)
+        mode, point, depth, length = _edge_patch(
+            vertex, shapes, p, q, -rb, i, ORIGIN, -1.0, normal, t1, t2, plane, rim, narrow, overlap
+        )
         if mode >= 0:
             return mode, False, point, depth, length, 0.0
     elif kind_a == VERTEX and kind_b == FACE:
-        if half_space or _inside(vertex, shapes, pa, m, offset, t1, t2, -1.0):
+        if half_space or _inside(vertex, shapes, pa, m, offset, t1, t2, -1.0, rim):
             return VERTEX_FACE, True, middle, overlap, 1.0, 0.0
     elif kind_a == FACE and kind_b == VERTEX:
-        if _inside(vertex, shapes, pb, i, ORIGIN, t1, t2, 1.0):
+        if _inside(vertex, shapes, pb, i, ORIGIN, t1, t2, 1.0, rim):
             return VERTEX_FACE, False, middle, overlap, 1.0, 0.0
     elif kind_a == EDGE and kind_b == EDGE:
         mode, point, depth, size, sine = _edges(
@@ -222,15 +227,15 @@ def contact_patch(vertex, face_normal, shapes, corners, corner_a, corner_b, a, b
 
 
 @item
-def _inside(vertex, shapes, point, face, origin, t1, t2, turn):
-    """Whether a point projects into a face (turn as in `_clip_by_face`)."""
+def _inside(vertex, shapes, point, face, origin, t1, t2, turn, rim):
+    """Whether a point projects into a face (turn and rim as in `_clip_by_face`)."""
     first, last = shapes.loop_start[face], shapes.loop_start[face + 1]
     for i in range(first, last):
         p = add(origin, load(vertex, shapes.loop[i]))
         q = add(origin, load(vertex, shapes.loop[i + 1 if i + 1 < last else first]))
         e, s = sub(q, p), sub(point, p)
         eu, ev = dot(e, t1), dot(e, t2)
-        if turn * (eu * dot(s, t2) - ev * dot(s, t1)) < -RIM * (abs(eu) + abs(ev)):
+        if turn * (eu * dot(s, t2) - ev * dot(s, t1)) < -rim * (abs(eu) + abs(ev)):
             return False
     return True
 

@@ -62,9 +62,9 @@ def damping_coefficient(damping, mass, stiffness):
 def power(overlap, exponent):
     """overlap^exponent; the exponents that occur need no general power."""
     if exponent == 1.5:
-        return overlap * overlap**0.5
+        return overlap * sqrt(overlap)
     if exponent == 0.5:
-        return overlap**0.5
+        return sqrt(overlap)
     if exponent == 1.0:
         return overlap
     if exponent == 0.0:

@@ -14,7 +14,8 @@ from dilatedem.numerics.vector import add, along, dot, load, scale, sub
 
 #: relative gain in squared distance below which the search ends; effect: error of the distance 1e-13, of the normal 3e-7 rad
 CONVERGED = 1e-13
-#: core distance, m, below which the direction of the shortest line is noise and the separating-axis search takes over
+#: core distance over that of the centroids, up to which the direction of the shortest line is noise and the separating-axis search
+#: takes over
 TOUCHING = 1e-9
 #: searches that take longer cycle on round-off and have converged
 MOST_ROUNDS = 64
@@ -49,7 +50,7 @@ def closest_points(vertex, face_normal, shapes, pairs, k, a, b, offset):
         cb[k, 0] = b0
     v = (0.0, 0.0, 0.0)
     l0, l1, l2, l3 = 1.0, 0.0, 0.0, 0.0
-    last = 1e300
+    last, nothing = 1e300, TOUCHING * TOUCHING * dot(offset, offset)
     for searched in range(MOST_ROUNDS):
         pairs.rounds[k] = searched + 1
         # corners of the Minkowski difference b - a
@@ -95,7 +96,7 @@ def closest_points(vertex, face_normal, shapes, pairs, k, a, b, offset):
             m += 1
         n = m
         v2 = dot(v, v)
-        if n == 4 or v2 < TOUCHING * TOUCHING:
+        if n == 4 or v2 <= nothing:
             depth, normal, pa, pb = core_penetration(vertex, face_normal, shapes, a, b, offset, load(pairs.normal, k))
             pairs.corners[k] = 0  # corners of an intersection are no start for a distance, but the patch wants to know the deepest
             ca[k, 0], _ = farthest_vertex(vertex, a0, a1, normal)

@@ -5,6 +5,8 @@ Every function returns the closest point and the weights of the corners (convex,
 slivers and repeated corners.
 """
 
+from math import sqrt
+
 from dilatedem.jit import device
 from dilatedem.numerics.vector import along, cross, dot, scale, sub
 
@@ -63,7 +65,7 @@ def closest_on_tetrahedron(p, q, r, s):
     """Closest point to the origin of the tetrahedron p q r s, weights; four positive weights say that the origin is inside."""
     a, b, c = sub(p, s), sub(q, s), sub(r, s)
     volume = dot(a, cross(b, c))
-    if abs(volume) > COPLANAR * (dot(a, a) * dot(b, b) * dot(c, c)) ** 0.5:
+    if abs(volume) > COPLANAR * sqrt(dot(a, a) * dot(b, b) * dot(c, c)):
         inverse = 1.0 / volume
         wp = -dot(s, cross(b, c)) * inverse
         wq = -dot(s, cross(c, a)) * inverse

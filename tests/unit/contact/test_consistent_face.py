@@ -12,6 +12,8 @@ from tests.pair_in_place import PairInPlace
 from tests.reference.cores import box, polygon
 
 UP, REACH = np.array([0.0, 0.0, 1.0]), 0.08
+#: by which face b reaches beyond its border, m
+BORDER = MARGIN * REACH
 #: beta of F = 2 E* beta sqrt(A/pi) overlap by aspect ratio, boundary elements (physics, 4.2)
 PUNCHES = {1.0: 1.018, 2.0: 1.045, 5.6: 1.184, 10.0: 1.321}
 #: Dunavant's rule of degree 4 on a triangle: barycentric coordinates, weights
@@ -47,7 +49,7 @@ def slow_patch(upper, lower, tilt, height):
     up = turn.apply(np.column_stack((upper, np.zeros(len(upper))))) + [0.0, 0.0, height]
     normal = turn.apply(UP)
     if len(lower):
-        lower = Polygon(lower).buffer(MARGIN, join_style="mitre", mitre_limit=1e9)
+        lower = Polygon(lower).buffer(BORDER, join_style="mitre", mitre_limit=1e9)
         patch = Polygon(up[:, :2]).intersection(lower)
     else:
         patch = Polygon(up[:, :2])
@@ -96,16 +98,16 @@ def test_flat_punch(ratio, overlap):
 
 @pytest.mark.parametrize("shift", [(0.0, 0.0), (0.7, 0.1), (0.93, 0.0), (0.9, 0.8)])
 def test_face_on_face_of_a_pair(shift):
-    # cubes of 1 m: the patch is where both are, and MARGIN of the lower one's border
+    # cubes of 1 m: the patch is where both are, and a little beyond the lower one's border
     pair = PairInPlace(box(1.0, 1.0, 1.0), box(1.0, 1.0, 1.0))
     pair.place(1, [*shift, 1.0 + REACH - 1e-4])
     found, size = pair.press(), 1.0 - np.array(shift)
     assert found.mode == Mode.FACE_FACE
-    assert found.size == pytest.approx(size.prod(), abs=1.1 * MARGIN * size.sum())
+    assert found.size == pytest.approx(size.prod(), abs=1.1 * BORDER * size.sum())
     shape = ((size[0] / size[1] + size[1] / size[0] + 2.0) / 4.0) ** 0.25
     assert found.force[2] == pytest.approx(2.0 * BETA * shape * np.sqrt(found.size / np.pi) * 1e-4, rel=2e-3)
     foot = np.cross(found.force, found.moment) / np.dot(found.force, found.force)
-    assert foot[:2] == pytest.approx(0.5 * np.array(shift), abs=2.0 * MARGIN)
+    assert foot[:2] == pytest.approx(0.5 * np.array(shift), abs=2.0 * BORDER)
 
 
 def cases():

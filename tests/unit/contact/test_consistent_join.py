@@ -12,6 +12,8 @@ from tests.pair_in_place import PairInPlace
 from tests.reference.cores import box
 
 RADIUS, REACH = 0.04, 0.08
+#: by which face b reaches beyond its border, m
+BORDER = MARGIN * REACH
 SQUARE = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]
 ON_EDGE = Rotation.from_rotvec([np.pi / 4, 0.0, 0.0])
 ON_CORNER = Rotation.align_vectors([[0.0, 0.0, -1.0]], [[1.0, 1.0, 1.0]])[0]
@@ -161,7 +163,7 @@ def test_the_cap_holds_the_closest_edge():
 
 
 def test_swapping_costs_no_more_than_the_margin():
-    # the patch is cut by b's border and MARGIN, so that its area may differ by MARGIN times the border that cuts
+    # the patch is cut by b's border moved out, so that its area may differ by BORDER times the border that cuts
     for width in (0.4, 0.1, 0.02):
         forces = []
         for swapped in (False, True):
@@ -169,4 +171,4 @@ def test_swapping_costs_no_more_than_the_margin():
             shift = np.array([1.0 + REACH - 1e-4, 0.0, 1.0 - width])
             pair.place(1, -shift if swapped else shift)
             forces.append(-pair.press().force if swapped else pair.press().force)
-        assert forces[0] == pytest.approx(forces[1], rel=1.05 * MARGIN / width, abs=MARGIN / width * np.linalg.norm(forces[0]))
+        assert forces[0] == pytest.approx(forces[1], rel=1.05 * BORDER / width, abs=BORDER / width * np.linalg.norm(forces[0]))

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from dilatedem.case.schema import Case
-from dilatedem.errors import CaseError
+from dilatedem.errors import CaseError, SimulationStopped
 from dilatedem.motion.timestep import _worst_mobility, critical_step
 from dilatedem.run.simulation import Simulation
 
@@ -66,3 +66,28 @@ def test_critical_step_without_free_bodies():
     made = floe()
     made.model.solids.inverse_mass[:] = 0.0
     assert critical_step(made.model, made.state.bodies) == np.inf
+
+
+def lone(**motion) -> Simulation:
+    """A floe alone in space, in motion."""
+    given = {"water": {"enabled": False}, "gravity": {"acceleration": 0.0}, "domain": {"size": [1000.0, 1000.0]}}
+    return floe(**given, body=[{"outline": SQUARE, "position": [0.0, 0.0, 0.0], **motion}])
+
+
+@pytest.mark.parametrize("motion", [{"angular_velocity": [0.3, 300.0, 0.0]}, {"velocity": [800.0, 0.0, 0.0]}])
+def test_the_automatic_step_knows_how_fast_bodies_are_at_the_start(motion):
+    made = lone(**motion)
+    assert made.dt < 0.5 * lone().dt
+    made.evaluate()
+    at_start = made.energy["kinetic"]
+    made.step(2000)  # stops nowhere
+    assert at_start > 1e6 and made.energy["kinetic"] == pytest.approx(at_start, rel=1e-6)
+
+
+def test_a_body_that_gets_too_fast_says_what_to_set():
+    made = lone()
+    made.state.bodies.angular_momentum[0] = made.model.solids.inertia[0] @ [0.0, 400.0, 0.0]
+    with pytest.raises(SimulationStopped, match=r"body 0 at .* moved .* in one step, .*, set time.step to at most") as stop:
+        made.step(2)
+    needed = float(str(stop.value).split("at most ")[1].split(" s")[0])
+    assert 0.0 < needed < made.dt
