@@ -26,8 +26,8 @@ def time_step(case: Case, critical: float) -> float:
     if case.time.step != "auto":
         if case.time.step > critical:
             raise CaseError(
-                f"time.step = {case.time.step:g}: must be at most the critical step, {critical:.3g} s, of the stiffest contact or the "
-                f'fastest body; set time.step = "auto" for {case.time.step_fraction:g} of it'
+                f"time.step = {case.time.step:g}: must be at most the critical step, {critical:.3g} s, of the stiffest contact or "
+                f'the fastest body; set time.step = "auto" for {case.time.step_fraction:g} of it'
             )
         return case.time.step
     output = case.output
