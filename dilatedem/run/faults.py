@@ -18,8 +18,8 @@ def fault(simulation, status: Status) -> str:
         if math.isfinite(measure):
             limit = LONGEST_MOVE * float(simulation.state.pairs.limit[0])
             cause = (
-                f"{names[0]} moved {measure:.3g} m in one step, farther than {limit:.3g} m, a step's most; where such speeds (spins) "
-                f"are meant, set time.step to at most {simulation.dt * limit / measure:.2g} s"
+                f"{names[0]} moved {measure:.3g} m in one step, farther than {limit:.3g} m, a step's most; where such speeds "
+                f"(spins) are meant, set time.step to at most {simulation.dt * limit / measure:.2g} s"
             )
     return f"stopped at t = {simulation.time_s:.6g} s: {cause}"
 
