@@ -48,6 +48,7 @@ if "NUMBA_CACHE_DIR" not in os.environ:
     os.environ["NUMBA_CACHE_DIR"] = str(_cache_folder())
 
 import numba  # noqa: E402  (the cache folder must be known first)
+from llvmlite.binding import parse_assembly, parse_bitcode  # noqa: E402
 
 from dilatedem.garbage import seldom_collected  # noqa: E402
 
@@ -70,8 +71,23 @@ def turn(folder: Path):
         yield
 
 
+def _without_intermediate_code(payload):
+    """What Numba saves of a kernel, less the code from which LLVM could merge it into others: nobody calls a kernel but Python, and
+    reading a megabyte of it takes as long as all else of the first step. The names that it defines stay, and nothing behind them.
+    """
+    try:
+        (name, kind, (machine_code, code)), *rest = payload
+        module = parse_bitcode(code)
+        lines = [f'target triple = "{module.triple}"', f'target datalayout = "{module.data_layout}"']
+        lines += [f'define void @"{code.name}"() {{ unreachable }}' for code in module.functions if not code.is_declaration]
+        lines += [f'@"{value.name}" = constant i8 0' for value in module.global_variables if not value.is_declaration]
+        return ((name, kind, (machine_code, parse_assembly("\n".join(lines)).as_bitcode())), *rest)
+    except (TypeError, ValueError, RuntimeError):
+        return payload
+
+
 def tend_cache(dispatcher) -> None:
-    """Have a kernel's machine code saved in `turn`, and loaded while Python looks for garbage seldom.
+    """Have a kernel's machine code saved in `turn`, that alone, and loaded while Python looks for garbage seldom.
 
     There is no public way to get in between: a Numba whose cache looks otherwise inside saves and loads as it likes.
     """
@@ -89,6 +105,8 @@ def tend_cache(dispatcher) -> None:
             return load(*arguments)
 
     cache.save_overload, cache.load_overload = save_overload, load_overload
+    if (reduce := getattr(getattr(cache, "_impl", None), "reduce", None)) is not None:
+        cache._impl.reduce = lambda result: _without_intermediate_code(reduce(result))
 
 
 def is_cached(dispatcher, *arguments) -> bool:

@@ -38,7 +38,10 @@ event.register("numba:compile", _SeldomCollected())
 
 
 def kernel(function):
-    """Compile a loop that Python calls; its machine code is kept on disk. Other threads of Python go on while it runs."""
+    """Compile a loop that Python calls; its machine code is kept on disk. Other threads of Python go on while it runs.
+
+    No compiled function may call one: what is kept on disk holds nothing that could be merged into another.
+    """
     dispatcher = numba.njit(cache=True, nogil=True, no_cfunc_wrapper=True, **_OPTIONS)(function)
     tend_cache(dispatcher)
     return dispatcher

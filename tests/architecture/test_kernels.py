@@ -42,6 +42,15 @@ def test_kernels_trade_no_exactness_for_speed_and_divide_like_numpy():
         assert function.targetoptions.get("inline", "never") == "never", f'{name}: inline="always" loses writes'
 
 
+def test_no_compiled_function_calls_a_kernel():
+    functions = compiled_functions()
+    kernels = {name: function for name, function in functions.items() if function._cache.cache_path is not None}
+    assert "dilatedem.step.advance.advance" in kernels and len(kernels) < 10
+    for name, function in functions.items():
+        called = [function.py_func.__globals__.get(word) for word in function.py_func.__code__.co_names]
+        assert not [other for other, each in kernels.items() if any(each is word for word in called)], name
+
+
 def test_a_kernel_that_allocates_does_not_compile():
     @kernel
     def copies(values):

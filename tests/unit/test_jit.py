@@ -4,6 +4,7 @@ machine code is kept by one process after the other; an item is merged into what
 import fcntl
 import gc
 import os
+import pickle
 import shutil
 import subprocess
 import sys
@@ -130,6 +131,23 @@ def test_machine_code_is_kept_though_its_folder_was_removed_meanwhile(tmp_path, 
 
     shutil.rmtree(tmp_path / "cache")
     assert tripled(2.0) == 6.0 and list((tmp_path / "cache").rglob("*.nbc"))
+
+
+def test_a_kernel_from_the_disk_gives_what_it_gave_when_compiled_and_is_machine_code_alone(tmp_path, monkeypatch):
+    module = tmp_path / "quadrupling.py"
+    module.write_text("from dilatedem.jit import kernel\n\n\n@kernel\ndef quadrupled(x):\n    return 4.0 * x\n", encoding="utf-8")
+    program = "from quadrupling import quadrupled as q; print(q(2.0), q(3.0), len(q.stats.cache_hits))"
+    environment = os.environ | {"NUMBA_CACHE_DIR": str(tmp_path / "cache"), "PYTHONPATH": f"{tmp_path}{os.pathsep}{ROOT}"}
+    told = [
+        subprocess.run([sys.executable, "-c", program], env=environment, capture_output=True, text=True, check=True).stdout.split()
+        for _ in range(2)
+    ]
+    assert told == [["8.0", "12.0", "0"], ["8.0", "12.0", "1"]]
+    (saved,) = (tmp_path / "cache").rglob("*.nbc")
+    monkeypatch.syspath_prepend(tmp_path)
+    code = pickle.loads(saved.read_bytes())[0]
+    machine_code, names = code[2]
+    assert len(names) < 3000 < len(machine_code)
 
 
 def _four_sums(array, i):
