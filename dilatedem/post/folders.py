@@ -20,6 +20,7 @@ from dilatedem.post.loads import angular_statistics, load_statistics
 from dilatedem.post.read import RunFolder, open_run
 from dilatedem.post.snapshots import snapshots_at
 from dilatedem.post.sweeps import Sweep, compare_runs, read_sweep, write_table
+from dilatedem.results.doubts import doubts
 from dilatedem.results.files import is_run, is_sweep, read_summary
 from dilatedem.results.snapshots import Snapshot
 from dilatedem.results.tables import row_count
@@ -128,7 +129,7 @@ def run_statistics(run: RunFolder) -> dict[str, Any]:
         if load_map is not None and load_map.place == "angle":
             loads[name]["around"] = angular_statistics(load_map, run.upstream_angle)
     share = residual_share(run.energy) if row_count(run.energy) else None
-    return {"simulated_s": run.simulated, "loads": loads, "largest_residual_over_work": share}
+    return {"simulated_s": run.simulated, "loads": loads, "largest_residual_over_work": share, "doubts": doubts(run.summary)}
 
 
 def merge_summary(path: Path, statistics: dict[str, Any]) -> bool:

@@ -9,6 +9,7 @@ from dilatedem.post.labels import axis_label, number
 from dilatedem.post.loads import load_statistics
 from dilatedem.post.read import RunFolder, open_run
 from dilatedem.post.sweeps import read_sweep, value_words
+from dilatedem.results.doubts import doubts
 from dilatedem.results.files import is_sweep
 
 
@@ -32,9 +33,10 @@ def describe_run(run: RunFolder) -> str:
     checked = (summary.get("error_check") or {}).get("message")
     if checked:
         lines.append(f"  {'step error':<12}{checked}")
-    share = (summary.get("energy") or {}).get("residual_over_work")
-    if share is not None:
-        lines.append(f"  {'energy':<12}residual {number(100.0 * share, 3)} % of the work of the current")
+    words = energy_words(summary.get("energy") or {})
+    if words:
+        lines.append(f"  {'energy':<12}{words}")
+    lines += [f"  {'caution':<12}{doubt}" for doubt in doubts(summary)]
     return "\n".join(lines)
 
 
@@ -80,6 +82,13 @@ def load_words(statistics: dict) -> str:
         f"along y {number(fy['min_N'] / 1e3, 3)} to {number(fy['max_N'] / 1e3, 3)} kN, "
         f"in contact {number(100.0 * statistics['contact_time_fraction'], 3)} % of the time"
     )
+
+
+def energy_words(energy: dict) -> str:
+    """How large the residual of the ledger is, beside the work of the loads, where they did any, and the energy turned over."""
+    beside = (("residual_over_work", "the work of current and wind"), ("residual_over_turned_over", "the energy turned over"))
+    words = [f"{number(100.0 * energy[key], 3)} % of {what}" for key, what in beside if energy.get(key) is not None]
+    return f"residual {', '.join(words)}" if words else ""
 
 
 def describe_sweep(folder: Path) -> str:

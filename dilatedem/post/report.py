@@ -15,6 +15,8 @@ from dilatedem.post.labels import axis_label, describe_key, flatten, number, sho
 from dilatedem.post.overview import status_words
 from dilatedem.post.read import RunFolder
 from dilatedem.post.sweeps import Sweep, relative, value_words
+from dilatedem.results.doubts import doubts
+from dilatedem.results.files import read_summary
 
 BODIES_LISTED = 5  # more explicit bodies than this are counted in the case table, not listed
 PAIRS = {"ice_ice": "floe on floe", "ice_structure": "floe on structure"}
@@ -47,6 +49,7 @@ def write_run_report(run: RunFolder, statistics: dict[str, Any], figures: list[t
         title=run.title,
         status=status_words(run),
         message=run.summary.get("message") or "",
+        doubts=statistics["doubts"],
         loads=[
             {"name": name, "rows": load_rows(entry) + step_rows(run.summary, name), "quantiles": quantile_table(entry)}
             for name, entry in statistics["loads"].items()
@@ -175,6 +178,9 @@ def energy_rows(run: RunFolder, statistics: dict[str, Any]) -> Rows:
     share = statistics.get("largest_residual_over_work")
     if share is not None:
         rows.append(["largest residual / largest work of the loads", f"{number(100.0 * share, 3)} %", ""])
+    share = (run.summary.get("energy") or {}).get("residual_over_turned_over")
+    if share is not None:
+        rows.append(["largest residual / energy turned over", f"{number(100.0 * share, 3)} %", ""])
     return rows
 
 
@@ -282,5 +288,6 @@ def run_table(sweep: Sweep) -> dict[str, Any]:
         cells += [number(load / 1e3) for load in loads] + [number(100.0 * run.residual_over_work, 2)]
         page = run.folder / "report.html"
         link = relative(page, sweep.folder) if page.is_file() else ""
-        rows.append({"name": run.folder.name, "link": link, "cells": cells, "message": run.message})
+        said = [run.message, *doubts(read_summary(run.folder / "summary.json"))]
+        rows.append({"name": run.folder.name, "link": link, "cells": cells, "message": "; ".join(filter(None, said))})
     return {"head": head, "rows": rows}

@@ -94,7 +94,7 @@ def load_measures(folder: RunFolder) -> dict[str, float]:
         "fluctuation_N": fluctuation(history, 0.0, math.inf),
         "fluctuation_first_hits_N": fluctuation(history, 0.0, FIRST_HITS),
         "fluctuation_jam_over_before": ratio(fluctuation(history, *JAM), fluctuation(history, 0.0, JAM[0])),
-        "residual_over_work": folder.summary.get("energy", {}).get("residual_over_work") or 0.0,
+        "residual_over_work": folder.summary.get("energy", {}).get("residual_over_work") or 0.0,  # null: the loads did no work
         "largest_overlap_m": folder.summary.get("contact", {}).get("largest_overlap_m", math.nan),
     }
     around = angular_statistics(folder.load_maps[PILE], folder.upstream_angle)

@@ -107,6 +107,21 @@ def test_runs_of_a_shell_loop_are_compared(make_run, tmp_path):
     assert beside / "report.html" in post([*runs[:2], beside])
 
 
+@pytest.mark.parametrize(("share", "cell", "shown"), [(None, "", "–"), (0.0, "0.0", "0")])
+def test_a_comparison_tells_no_residual_from_none(share, cell, shown, make_run, tmp_path):
+    for seed in (1, 2):
+        folder = make_run(tmp_path / f"seed{seed}", seed=seed, duration=1.0, snapshots=False)
+        summary = json.loads((folder / "summary.json").read_text())
+        summary["energy"]["residual_over_work"] = share
+        (folder / "summary.json").write_text(json.dumps(summary))
+        for name in ("energy.csv", "run.h5", "forces.csv"):
+            (folder / name).unlink()
+    post(sorted(tmp_path.iterdir()))
+    rows = (tmp_path / "comparison/comparison.csv").read_text().splitlines()
+    assert [row.split(",")[-2] for row in rows] == ["residual_over_work", cell, cell]
+    assert (tmp_path / "comparison/report.html").read_text().count(f"<td>{shown}</td></tr>") == 2
+
+
 def test_folder_that_is_neither_is_refused_before_anything_is_written(make_run, tmp_path):
     folder = make_run(tmp_path / "run", structures=(), snapshots=False)
     (tmp_path / "empty").mkdir()
