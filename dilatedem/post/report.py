@@ -38,6 +38,11 @@ LIMITS_OF_LIU2015 = (
 )
 UNFINISHED = "This run did not reach its end: everything here covers only the part that was simulated."
 
+ONE_HIT = (
+    "These are no error bars of the run. They say how far this one hit, given the state before it, depends on the step; another "
+    "history of the ice, of another step or another seed, has another highest hit. For that spread, run several seeds."
+)
+
 Rows = list[list[str]]
 
 
@@ -51,7 +56,10 @@ def write_run_report(run: RunFolder, statistics: dict[str, Any], figures: list[t
         message=run.summary.get("message") or "",
         doubts=statistics["doubts"],
         loads=[
-            {"name": name, "rows": load_rows(entry) + step_rows(run.summary, name), "quantiles": quantile_table(entry)}
+            {
+                "name": name, "rows": load_rows(entry), "quantiles": quantile_table(entry), "step": step_rows(run.summary, name),
+                "one_hit": ONE_HIT,
+            }  # fmt: skip
             for name, entry in statistics["loads"].items()
         ],
         unchecked=unchecked(run.summary),
@@ -139,7 +147,7 @@ def step_rows(summary: dict[str, Any], structure: str) -> Rows:
     kinds = {"fh_max": "highest horizontal force", "impulse_h": f"horizontal {window}", "impulse_x": f"{window} along x"}
     changes = {kind: checked["change"].get(kind) for kind in kinds}
     return [
-        [f"half the time step changes the {kinds[kind]} by", number(100.0 * change, 2), "%"]
+        [f"in the one hit replayed, half the time step changes the {kinds[kind]} by", number(100.0 * change, 2), "%"]
         for kind, change in changes.items()
         if change is not None
     ]
