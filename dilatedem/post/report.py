@@ -28,7 +28,7 @@ LIMITS = (
     "the whole wetted surface of a floe: about ten times the drag of a formula for the frontal area.",
     "Peaks last tens of milliseconds, and their height and number vary from one random field to the next: "
     "judge by several seeds, not by one run.",
-    "Durations of peaks are counted in whole windows of forces.csv, too long by up to two windows each.",
+    "Durations of hits are counted in whole windows of forces.csv, too long by up to two windows each.",
 )
 LIMITS_OF_LIU2015 = (
     "Contact laws are those of Liu, Long & Ji (2015), mode by mode. They jump where a contact changes its "
@@ -106,7 +106,7 @@ def load_rows(statistics: dict[str, Any]) -> Rows:
     """What, value and unit of the load on one structure; none where there is nothing to tell."""
     if not statistics["windows"] or statistics["fh"]["peak_N"] == 0.0:
         return []
-    fh, fx, fy, peaks = statistics["fh"], statistics["fx"], statistics["fy"], statistics["peaks"]
+    fh, fx, fy = statistics["fh"], statistics["fx"], statistics["fy"]
     rows = [
         ["highest horizontal force", kilo(fh["peak_N"]), f"kN, at {number(fh['peak_time_s'], 5)} s"],
         ["force along x, lowest to highest", f"{kilo(fx['min_N'])} to {kilo(fx['max_N'])}", "kN"],
@@ -118,23 +118,28 @@ def load_rows(statistics: dict[str, Any]) -> Rows:
         spread = f"standard deviation of the {window} means along {axis}"
         rows.append([spread, kilo(entry["std_of_window_means_N"]), "kN"])
         rows.append([f"impulse along {axis}", kilo(entry["impulse_Ns"]), "kN s"])
+    for side, words in (("along_current", "along the current"), ("across_current", "across the current, positive to its left")):
+        if side in statistics:
+            rows.append([f"mean force {words}", kilo(statistics[side]["mean_N"]), "kN"])
     rows.append(["share of time in contact", number(100.0 * statistics["contact_time_fraction"], 3), "%"])
-    if peaks["count"]:
-        share = number(100.0 * peaks["threshold_share_of_highest"])
+    if "hits" in statistics:
+        hits = statistics["hits"]
+        apart = f"apart by {number(hits['gap_s'])} s or more below that"
         rows += [
-            [
-                f"separate peaks above {kilo(peaks['threshold_N'])} kN, {share} % of the highest",
-                str(peaks["count"]),
-                "",
-            ],
-            ["mean duration of these peaks", number(1e3 * peaks["mean_duration_s"], 3), "ms"],
-            ["longest of them", number(1e3 * peaks["longest_duration_s"], 3), "ms"],
+            [f"separate hits: horizontal force of at least {kilo(hits['threshold_N'])} kN, {apart}", str(hits["count"]), ""],
+            ["mean duration of these, from the first window above to the last", number(hits["mean_duration_s"], 3), "s"],
+            ["longest of them", number(hits["longest_duration_s"], 3), "s"],
+            ["mean time of a hit above that force", number(hits["mean_time_above_s"], 3), "s"],
         ]
     for half in (45, 90):
         part = (statistics.get("around") or {}).get(f"share_within_{half}_deg_of_upstream")
         if part is not None:
             what = f"share of the load within {half}° of the upstream direction"
             rows.append([what, number(100.0 * part, 3), "%"])
+    around = statistics.get("around") or {}
+    if around:
+        zero = around["zero_of_angles"]
+        rows.append([f"centre of the load, 0° = {zero}", number(around["centre_of_load_from_zero_deg"], 3), "°"])
     return rows
 
 
@@ -267,7 +272,7 @@ def mean_table(sweep: Sweep, structure: str) -> dict[str, Any]:
     """One row for each setting of the varied keys: number of runs, mean and spread of their loads."""
     rows = []
     for group in group_runs(sweep, sweep.keys[0]) if sweep.keys else []:
-        highest, mean = group.loads(structure, "fx_max") / 1e3, group.loads(structure, "fx_mean") / 1e3
+        highest, mean = group.loads(structure, "fh_max") / 1e3, group.loads(structure, "fx_mean") / 1e3
         if not len(highest):
             continue
         spread = number(float(highest.std(ddof=1)), 3) if len(highest) > 1 else "–"

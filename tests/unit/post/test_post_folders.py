@@ -6,10 +6,12 @@ import shutil
 import subprocess
 import sys
 
+import numpy as np
 import pytest
 
 from dilatedem.errors import CaseError
 from dilatedem.post import info, post
+from dilatedem.post.read import open_run
 
 PLANE = {"kind": "plane", "name": "quay", "point": [9.0, 0.0, 0.0], "normal": [-1.0, 0.0, 0.0]}
 
@@ -35,7 +37,11 @@ def test_whole_run(make_run, tmp_path):
     found = after.pop("post")
     assert after == before
     assert list(after) == list(before)
-    assert found["loads"]["pile"]["peaks"]["count"] > 0
+    hits = found["loads"]["pile"]["hits"]
+    assert hits["count"] > 0 and hits["threshold_N"] == pytest.approx(np.mean(open_run(folder).floes.mass))
+    page = (folder / "report.html").read_text(encoding="utf-8")
+    assert page.count("separate hits: horizontal force of at least") == 2  # in the table and under the figure of the force
+    assert "centre of the load, 0° = upstream; counter-clockwise seen from above" in page
     assert found["loads"]["pile"]["around"]["share_within_90_deg_of_upstream"] == pytest.approx(1.0)
     check_page(folder / "report.html", pictures=len(figures))
     text = info(folder)
