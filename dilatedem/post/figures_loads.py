@@ -33,6 +33,7 @@ def force_figure(structure: str, history: Table, hits: dict[str, Any] | None = N
         mark_extreme(axes, history, axis)
     panels[0].legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2, borderaxespad=0.2)
     panels[0].set_title(f"Ice force on {structure}")
+    panels[1].set_title(hit_words(hits).strip(), fontsize=8.5)
     panels[1].set_xlabel("Time (s)")
     width = joined * float(np.median(window_lengths(history["time_s"])))
     caption = (

@@ -11,7 +11,7 @@ from dilatedem.post import canvas
 from dilatedem.post.figures_field import field_figure, plan_figure, speed_figure
 from dilatedem.post.figures_loads import force_figure, peak_figure
 from dilatedem.post.figures_map import load_around_figure, load_map_figure, seen_from, upstream_place, upstream_side
-from dilatedem.post.folders import run_drawings
+from dilatedem.post.folders import hits_on, run_drawings
 from dilatedem.post.loads import angular_statistics
 from dilatedem.post.plan import choose_view, periodic_copies
 from dilatedem.post.read import open_run
@@ -82,6 +82,15 @@ def test_force_history_keeps_the_extremes_when_windows_are_joined(run):
     top = drawing.figure.axes[0].collections[0].get_datalim(drawing.figure.axes[0].transData).y1
     assert top == pytest.approx(history["fx_max_N"].max() / 1e3)
     assert "kN" in drawing.figure.axes[0].get_ylabel()
+
+
+def test_force_history_says_how_many_hits_there_were_and_what_counts_as_one(run):
+    hits = hits_on(run, run.forces["pile"])
+    drawing = force_figure("pile", run.forces["pile"], hits)
+    words = f"{hits['count']} separate hits: horizontal force of at least"
+    assert drawing.figure.axes[1].get_title("left").startswith(words) and words in drawing.caption
+    assert "apart by 1 s or more below it" in drawing.caption
+    assert "separate" not in force_figure("pile", run.forces["pile"]).caption
 
 
 def test_quiet_structure_has_no_peak_to_draw(run):
