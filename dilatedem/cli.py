@@ -182,10 +182,12 @@ def post(runs: RunsArgument) -> None:
     - `dilatedem post runs/pile-sweep`
     """
     from dilatedem.post import post as make_figures
+    from dilatedem.results.doubts import doubts
+    from dilatedem.results.files import read_summary
 
     for path in make_figures(list(runs)):
         if path.name == "report.html":
-            print(path)
+            print("\n".join([str(path), *_cautions(doubts(read_summary(path.with_name("summary.json"))))]))
 
 
 @app.command()
@@ -281,8 +283,10 @@ def _require_run(folder: Path) -> None:
 
 
 def _headline(folder: Path) -> str:
-    """The last line of a run: where its files are, the peak load on each structure, the time it took."""
+    """How a run ends: where its files are, the peak load on each structure, the time it took; a line for each thing to doubt."""
     import json
+
+    from dilatedem.results.doubts import doubts
 
     summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
     peaks = [
@@ -290,7 +294,11 @@ def _headline(folder: Path) -> str:
         for name, load in summary["loads"].items()
     ]
     start = f"{folder}: {summary['simulated_s']:g} s simulated in {_clock(summary['wall_s'])}"
-    return "; ".join([start, *peaks])
+    return "\n".join(["; ".join([start, *peaks]), *_cautions(doubts(summary))])
+
+
+def _cautions(doubts: Iterable[str]) -> list[str]:
+    return [f"caution: {doubt}" for doubt in doubts]
 
 
 def _clock(seconds: float) -> str:

@@ -153,7 +153,7 @@ class Time(Table):
     )
     step_fraction: Annotated[float, Field(gt=0, lt=1)] = key(0.1, "", "The automatic step as a share of the critical step.")
     error_check: bool = key(
-        False, "", "`true` replays the highest load with half the step once the run is done; the change goes to summary.json."
+        False, "", "`true` replays the highest hit of a run with half the step, once it is done, for the error in that one hit."
     )
 
     def faults(self) -> list[Fault]:

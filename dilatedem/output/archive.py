@@ -56,6 +56,7 @@ class LoadMap:
     center       (2,) the structure's centre in plan, or (3,) the point that distances are measured from [m]
     radius       of the surface that angles run around [m]; None for distances
     axis         (3,) unit vector along which distances are measured; None where they are not along a line
+    upstream_deg where the current comes from, an angle of the first axis [deg]; nan in still water
     """
 
     structure: str
@@ -70,6 +71,7 @@ class LoadMap:
     center: Sequence[float]
     radius: float | None = None
     axis: Sequence[float] | None = None
+    upstream_deg: float = math.nan
 
 
 class PlanOutline(NamedTuple):
@@ -166,13 +168,16 @@ class RunArchive:
         self._file.close()
 
 
+def direction(x: float, y: float) -> float:
+    """Angle [deg] of a vector in plan from +x, counter-clockwise seen from above, -180 to 180; nan of one without length."""
+    return math.degrees(math.atan2(y + 0.0, x + 0.0)) if math.hypot(x, y) > 0.0 else math.nan
+
+
 def _write_about(file: h5py.File, about: Mapping[str, Any]) -> None:
     """Attributes of the whole file."""
     current = about.get("current_velocity_m_s")
     if current is not None:
-        u, v = current
-        direction = math.degrees(math.atan2(v + 0.0, u + 0.0)) if math.hypot(u, v) > 0.0 else math.nan
-        about = {**about, "current_velocity_m_s": np.array([u, v], dtype=float), "current_direction_deg": direction}
+        about = {**about, "current_velocity_m_s": np.array(current, dtype=float), "current_direction_deg": direction(*current)}
     file.attrs.update({"program": "dilatedem", "version": __version__, "conventions": CONVENTIONS, **about})
 
 
@@ -194,6 +199,8 @@ def _write_load_map(group: h5py.Group, load_map: LoadMap) -> None:
     group.attrs["center_m"] = np.asarray(load_map.center, dtype=float)
     group.attrs["first_axis"] = load_map.zero
     group.attrs["axis_label"] = load_map.label
+    if load_map.place == "angle":
+        group.attrs["upstream_deg"] = load_map.upstream_deg
     if load_map.radius is not None:
         group.attrs["radius_m"] = load_map.radius
     if load_map.axis is not None:

@@ -1,9 +1,10 @@
 """energy.csv: energies are noted as they come and made rows many at once."""
 
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field
 
 import numpy as np
 
+from dilatedem.numerics import balance
 from dilatedem.output import folder
 from dilatedem.output.observer import TableObserver
 from dilatedem.state.ledger import LOAD, STORED, TERMS
@@ -16,6 +17,9 @@ class Totals:
     initial_energy: float | None = None  # J
     largest_residual: float = 0.0  # J
     largest_work: float = 0.0  # J, of all loads together, each by its size
+    largest_stored: float = 0.0  # J, all that is stored, each by its size
+    largest_turned_over: float = 0.0  # J
+    initial: dict[str, float] = field(default_factory=dict)  # J, every term of the first row
     largest_step_ratio: float = 0.0  # dt over the critical step of the open contacts
 
 
@@ -34,10 +38,15 @@ def work_up(noted: list[list[float]], names: list[str], totals: Totals) -> np.nd
     total = total - sum(term.sign * values[term.name] for term in flows)
     if totals.initial_energy is None:
         totals.initial_energy = float(total[0])
+        totals.initial = {term.name: float(values[term.name][0]) for term in there}
     values["residual"] = total - totals.initial_energy
     totals.largest_residual = max(totals.largest_residual, float(np.abs(values["residual"]).max()))
     work = sum(np.abs(values[term.name]) for term in there if term.owner == LOAD)
     totals.largest_work = max(totals.largest_work, float(np.max(work)))
+    stored = balance.sizes(values[term.name] for term in there if term.sign == STORED)
+    totals.largest_stored = max(totals.largest_stored, float(np.max(stored)))
+    turned_over = balance.turned_over({name: values[name] - initial for name, initial in totals.initial.items()})
+    totals.largest_turned_over = max(totals.largest_turned_over, float(np.max(turned_over)))
     totals.largest_step_ratio = max(totals.largest_step_ratio, float(values["step_ratio"].max()))
     return np.column_stack([values[name] for name in ("time_s", *names, "residual")])
 
@@ -73,9 +82,14 @@ class Energies(TableObserver):
 
     def summary(self) -> dict:
         terms = self.simulation.energies() if self.simulation.state.clock.step[0] else {}
-        residual, work = self.totals.largest_residual, self.totals.largest_work
+        totals, residual = self.totals, self.totals.largest_residual
         return {
-            "dt_over_critical_of_open_contacts": self.totals.largest_step_ratio,
+            "dt_over_critical_of_open_contacts": totals.largest_step_ratio,
             "energy": {f"{name}_J": value for name, value in terms.items()}
-            | {"residual_J": residual, "residual_over_work": residual / work if work else None},
+            | {
+                "residual_J": residual,
+                "residual_over_work": balance.share(residual, totals.largest_work, totals.largest_stored),
+                "turned_over_J": totals.largest_turned_over,
+                "residual_over_turned_over": balance.share(residual, totals.largest_turned_over, totals.largest_stored),
+            },
         }

@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from dilatedem.output import folder
-from dilatedem.output.archive import ContactStatistics, FloeTable, LoadMap, PlanOutline, RunArchive
+from dilatedem.output.archive import ContactStatistics, FloeTable, LoadMap, PlanOutline, RunArchive, direction
 from dilatedem.output.observer import Observer
 from dilatedem.state.ledger import TERMS
 from dilatedem.state.loads import HEIGHT_BINS, PLACE_BINS
@@ -27,15 +27,20 @@ class Record(Observer):
             self._archive.update(maps, statistics)
         else:
             case = self.simulation.case
-            current = case.water.velocity if case.water.enabled else (0.0, 0.0)
-            about = {"title": case.title, "seed": case.field.seed, "current_velocity_m_s": current}
+            about = {"title": case.title, "seed": case.field.seed, "current_velocity_m_s": self._current()}
             about |= {"energy_terms": [term.name for term in TERMS], "energy_labels": [term.label for term in TERMS]}
             self._archive = RunArchive(maps, statistics, self._floe_table(), outlines=self._outlines(), about=about)
         self._archive.write(self.out / folder.RUN_ARCHIVE)
 
+    def _current(self) -> tuple[float, float]:
+        """Velocity of the water [m/s]; zero where it is switched off."""
+        water = self.simulation.case.water
+        return tuple(water.velocity) if water.enabled else (0.0, 0.0)
+
     def _load_maps(self) -> list[LoadMap]:
         """At this moment, in copies."""
         simulation, impulse = self.simulation, self.simulation.state.loads.impulse_map
+        u, v = self._current()
         maps = []
         for s, structure in enumerate(simulation.scene.structures):
             if structure.chart is None:
@@ -47,6 +52,7 @@ class Record(Observer):
                 label=chart.label, zero=chart.zero, edges=chart.edges(PLACE_BINS),
                 height_edges=np.linspace(low, high, HEIGHT_BINS + 1), duration_s=simulation.time_s,
                 center=structure.about.place[:2] if chart.origin is None else chart.origin, radius=chart.radius, axis=chart.axis,
+                upstream_deg=direction(-u, -v),
             ))  # fmt: skip
         return maps
 

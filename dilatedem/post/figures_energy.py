@@ -7,6 +7,7 @@ from types import MappingProxyType
 
 import numpy as np
 
+from dilatedem.numerics import balance
 from dilatedem.post.canvas import (
     BLACK,
     BLUE,
@@ -23,6 +24,7 @@ from dilatedem.post.canvas import (
 from dilatedem.post.labels import number
 from dilatedem.results.tables import Table
 
+STORED = ("kinetic", "gravity", "buoyancy", "elastic")  # columns of what is stored
 # label, columns added up, colour, line style
 TERMS = (
     ("work of the current (drag)", ("work_drag",), BLUE, "-"),
@@ -88,12 +90,13 @@ def energy_change(energy: Table, names: tuple[str, ...]) -> np.ndarray:
 
 
 def residual_share(energy: Table) -> float | None:
-    """Largest residual over the largest work of all loads, each by its size; None where no work was done."""
+    """Largest residual over the largest work of all loads, each by its size; None where they did none but round-off."""
     loads = [name for name in energy if name.startswith("work_") and name != "work_structure"]
     if "residual" not in energy or not loads or not len(energy["time_s"]):
         return None
-    work = float(np.sum([np.abs(energy[name]) for name in loads], axis=0).max())
-    return float(np.abs(energy["residual"]).max()) / work if work > 0.0 else None
+    stored = [name for name in STORED if name in energy]
+    work, size = (float(np.sum([np.abs(energy[name]) for name in names], axis=0).max(initial=0.0)) for names in (loads, stored))
+    return balance.share(float(np.abs(energy["residual"]).max()), work, size)
 
 
 def scale_of(largest: float) -> tuple[float, str]:

@@ -13,7 +13,7 @@ from dilatedem.post.canvas import MARKERS, SERIES, Drawing, file_name, new_figur
 from dilatedem.post.labels import axis_label, describe_key
 from dilatedem.post.sweeps import Sweep, SweepRun, axis_value, value_words
 
-PANELS = (("fx_max", "Highest force along x (kN)"), ("fx_mean", "Mean force along x (kN)"))
+PANELS = (("fh_max", "Highest horizontal force (kN)"), ("fx_mean", "Mean force along x (kN)"))
 
 
 @dataclass(frozen=True)
@@ -60,7 +60,7 @@ def setting_words(values: dict[str, Any], keys: list[str]) -> str:
 def sweep_figure(sweep: Sweep, structure: str, key: str) -> Drawing | None:
     """Highest and mean force on a structure against one key; a line for each setting of the other keys."""
     groups = group_runs(sweep, key)
-    groups = [group for group in groups if len(group.loads(structure, "fx_max"))]
+    groups = [group for group in groups if len(group.loads(structure, "fh_max"))]
     if len({group.place for group in groups}) < 2:
         return None
     others = [other for other in sweep.keys if other != key and varies(groups, other)]
@@ -115,7 +115,7 @@ def draw_line(axes: Axes, groups: list[Group], structure: str, quantity: str, lo
 
 
 def sweep_caption(structure: str, key: str, groups: list[Group], others: list[str]) -> str:
-    counts = sorted({len(group.loads(structure, "fx_max")) for group in groups})
+    counts = sorted({len(group.loads(structure, "fh_max")) for group in groups})
     repeats = f"{counts[0]} to {counts[-1]} runs" if len(counts) > 1 else plural(counts[0], "run")
     spread = ""
     if counts[-1] > 1:
@@ -124,7 +124,7 @@ def sweep_caption(structure: str, key: str, groups: list[Group], others: list[st
     words = f" Left out: {plural(left_out, 'run')} that did not complete." if left_out else ""
     by = f", for each {' and '.join(describe_key(other)[0] for other in others)}" if others else ""
     return (
-        f"Highest force of any time step (above) and mean force (below) along x on {structure}, kN, against "
+        f"Highest horizontal force of any time step (above) and mean force along x (below) on {structure}, kN, against "
         f"{axis_label(key)[0].lower() + axis_label(key)[1:]}{by}; {repeats} to a point.{spread}{words}"
     )
 

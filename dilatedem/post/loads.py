@@ -7,12 +7,19 @@ from typing import Any
 
 import numpy as np
 
+from dilatedem.post.labels import number
 from dilatedem.results.archive import LoadMap
 from dilatedem.results.tables import Table, row_count
 
 QUANTILES = (50.0, 90.0, 95.0, 99.0, 99.9)  # per cent of the windows
-# Share of the highest peak that counts as a peak; a lower one counts the shivers between two hits too.
-PEAK_THRESHOLD = 0.1
+#: m/s2 that the least force which counts as a hit gives the run's mean floe: far above drag and the shivers of a jam
+HIT_ACCELERATION = 1.0
+#: N, that force where the floes are not known
+HIT_FORCE = 1000.0
+#: s for which the force stays below the threshold between two hits, at least
+HIT_GAP = 1.0
+#: how angles run
+SENSE = "counter-clockwise seen from above"
 
 
 def window_lengths(time: np.ndarray) -> np.ndarray:
@@ -25,11 +32,12 @@ def window_lengths(time: np.ndarray) -> np.ndarray:
     return np.concatenate([[first], np.diff(time)])
 
 
-def load_statistics(history: Table) -> dict[str, Any]:
+def load_statistics(history: Table, current: tuple[float, float] = (0.0, 0.0)) -> dict[str, Any]:
     """Headline figures of one structure's rows of forces.csv, SI units, ready for JSON.
 
     history: columns of forces.csv, each (n,). Means, standard deviations and impulses are those of the window
         means; peaks and quantiles those of the windows' extremes, which a run records over every step.
+    current: velocity of the water [m/s]; where there is any, means and impulses along it and across it are given, too.
     """
     if row_count(history) == 0:
         return {"windows": 0}
@@ -58,8 +66,10 @@ def load_statistics(history: Table) -> dict[str, Any]:
             "std_of_window_means_N": float(np.sqrt(np.average((mean - average) ** 2, weights=lengths))),
             "impulse_Ns": float(np.sum(mean * lengths)),
         }
+    if any(current):
+        for side, force in zip(("along_current", "across_current"), along_and_across(history, current), strict=True):
+            statistics[side] = {"mean_N": float(np.average(force, weights=lengths)), "impulse_Ns": float(np.sum(force * lengths))}
     statistics["fx"]["quantiles_of_window_maxima_N"] = quantiles(history["fx_max_N"])
-    statistics["peaks"] = peak_statistics(highest, lengths)
     return statistics
 
 
@@ -68,26 +78,70 @@ def quantiles(values: np.ndarray) -> dict[str, float]:
     return {f"{q:g}": float(value) for q, value in zip(QUANTILES, np.percentile(values, QUANTILES), strict=True)}
 
 
-def peak_statistics(highest: np.ndarray, lengths: np.ndarray) -> dict[str, Any]:
-    """Separate peaks: unbroken rows of windows whose maximum (n,) [N] reaches a share of the highest of all.
+def hit_threshold(masses: np.ndarray | None) -> float:
+    """Horizontal force [N] from which on a load counts as a hit: what would give the mean floe HIT_ACCELERATION.
 
-    lengths: (n,) [s]. A duration counts whole windows, so it is too long by up to a window at either end.
+    masses (n,) [kg] of the floes at the start; none: HIT_FORCE. It depends on the ice alone, neither on the run's own loads nor on
+    the current, so that counts of runs can be compared.
     """
-    threshold = PEAK_THRESHOLD * float(np.max(highest))
-    if threshold <= 0.0:
-        return {"threshold_N": 0.0, "count": 0, "mean_duration_s": 0.0, "longest_duration_s": 0.0}
+    return HIT_ACCELERATION * float(np.mean(masses)) if masses is not None and len(masses) else HIT_FORCE
+
+
+def hit_statistics(history: Table, threshold: float, gap: float = HIT_GAP) -> dict[str, Any]:
+    """Separate hits: times at which the highest horizontal force of the windows reaches a threshold [N].
+
+    Two such times are one hit unless the force stays below the threshold for `gap` [s] or longer in between: a floe that grinds
+    along a structure, or bounces, is one hit. A duration runs from the first to the last of a hit's windows that reach the
+    threshold, the time above counts these windows alone; both count whole windows, too long by up to a window at either end.
+    """
+    highest, lengths = history["fh_max_N"], window_lengths(history["time_s"])
     above = np.concatenate([[False], highest >= threshold, [False]])
     change = np.flatnonzero(np.diff(above.astype(np.int8)))
-    starts, ends = change[::2], change[1::2]
     elapsed = np.concatenate([[0.0], np.cumsum(lengths)])
-    duration = elapsed[ends] - elapsed[starts]
+    starts, ends = change[::2], change[1::2]
+    apart = elapsed[starts[1:]] - elapsed[ends[:-1]] >= gap * (1.0 - 1e-9)
+    first, last = starts[np.append(True, apart)[: len(starts)]], ends[np.append(apart, True)[: len(ends)]]
+    duration = elapsed[last] - elapsed[first]
     return {
         "threshold_N": threshold,
-        "threshold_share_of_highest": PEAK_THRESHOLD,
+        "gap_s": gap,
         "count": len(duration),
-        "mean_duration_s": float(np.mean(duration)),
-        "longest_duration_s": float(np.max(duration)),
+        "mean_duration_s": float(np.mean(duration)) if len(duration) else 0.0,
+        "longest_duration_s": float(np.max(duration, initial=0.0)),
+        "mean_time_above_s": float(np.sum(elapsed[ends] - elapsed[starts]) / len(duration)) if len(duration) else 0.0,
     }
+
+
+def hit_words(hits: dict[str, Any] | None) -> str:
+    """How many hits there were and what counted as one, as a sentence of a caption; nothing where that is not known."""
+    if not hits:
+        return ""
+    count, threshold = hits["count"], number(hits["threshold_N"] / 1e3, 3)
+    return (
+        f" {count} separate {'hit' if count == 1 else 'hits'}: horizontal force of at least {threshold} kN, apart by "
+        f"{number(hits['gap_s'])} s or more below it."
+    )
+
+
+def along_and_across(history: Table, current: tuple[float, float]) -> tuple[np.ndarray, np.ndarray]:
+    """Mean force of every window along the current and across it, positive to its left, each (n,) [N].
+
+    current: its velocity [m/s]; along x and y where it is zero.
+    """
+    speed = math.hypot(*current)
+    x, y = (current[0] / speed, current[1] / speed) if speed > 0.0 else (1.0, 0.0)
+    fx, fy = history["fx_N"], history["fy_N"]
+    return x * fx + y * fy, x * fy - y * fx
+
+
+def zero_words(upstream: float | None) -> str:
+    """Where angles are zero; upstream: direction the current comes from, None in still water."""
+    return "+x (still water)" if upstream is None else "upstream"
+
+
+def from_zero(angle: np.ndarray, upstream: float | None) -> np.ndarray:
+    """Angles [deg] from +x as angles from the zero of `zero_words`, -180 to below 180."""
+    return (angle - (upstream or 0.0) + 180.0) % 360.0 - 180.0
 
 
 def mean_force_by_place(load_map: LoadMap) -> np.ndarray:
@@ -106,19 +160,21 @@ def line_load(load_map: LoadMap) -> np.ndarray:
 
 
 def angular_statistics(load_map: LoadMap, upstream: float | None) -> dict[str, Any]:
-    """Where around a structure the load sits.
+    """Where around a structure the load sits: its centre as an angle from the zero, which is said, and shares of it.
 
-    upstream: direction the current comes from, degrees from +x; None leaves the shares about it out.
+    upstream: direction the current comes from, degrees from +x; None, in still water, takes +x for the zero and leaves the shares
+    about upstream out.
     """
     force = mean_force_by_place(load_map)
     total = float(force.sum())
     if total <= 0.0:
         return {}
-    angle = np.radians(0.5 * (load_map.place_edges[1:] + load_map.place_edges[:-1]))
-    x, y = float(np.sum(force * np.cos(angle))), float(np.sum(force * np.sin(angle)))
-    result: dict[str, Any] = {"centre_of_load_deg": math.degrees(math.atan2(y, x))}
+    angle = from_zero(0.5 * (load_map.place_edges[1:] + load_map.place_edges[:-1]), upstream)
+    x, y = (float(np.sum(force * part)) for part in (np.cos(np.radians(angle)), np.sin(np.radians(angle))))
+    result: dict[str, Any] = {
+        "zero_of_angles": f"{zero_words(upstream)}; {SENSE}", "centre_of_load_from_zero_deg": math.degrees(math.atan2(y, x)),
+    }  # fmt: skip
     if upstream is not None:
-        away = np.abs((np.degrees(angle) - upstream + 180.0) % 360.0 - 180.0)
         for half in (45, 90):
-            result[f"share_within_{half}_deg_of_upstream"] = float(force[away <= half].sum() / total)
+            result[f"share_within_{half}_deg_of_upstream"] = float(force[np.abs(angle) <= half].sum() / total)
     return result

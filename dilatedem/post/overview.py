@@ -9,6 +9,7 @@ from dilatedem.post.labels import axis_label, number
 from dilatedem.post.loads import load_statistics
 from dilatedem.post.read import RunFolder, open_run
 from dilatedem.post.sweeps import read_sweep, value_words
+from dilatedem.results.doubts import doubts
 from dilatedem.results.files import is_sweep
 
 
@@ -26,15 +27,16 @@ def describe_run(run: RunFolder) -> str:
     if summary.get("steps"):
         lines.append(f"  {'steps':<12}{step_words(summary)}")
     for name, history in run.forces.items():
-        lines.append(f"  {'load':<12}{name}: {load_words(load_statistics(history))}")
+        lines.append(f"  {'load':<12}{name}: {load_words(load_statistics(history, run.current))}")
     if not run.forces:
         lines.append(f"  {'load':<12}none recorded")
     checked = (summary.get("error_check") or {}).get("message")
     if checked:
         lines.append(f"  {'step error':<12}{checked}")
-    share = (summary.get("energy") or {}).get("residual_over_work")
-    if share is not None:
-        lines.append(f"  {'energy':<12}residual {number(100.0 * share, 3)} % of the work of the current")
+    words = energy_words(summary.get("energy") or {})
+    if words:
+        lines.append(f"  {'energy':<12}{words}")
+    lines += [f"  {'caution':<12}{doubt}" for doubt in doubts(summary)]
     return "\n".join(lines)
 
 
@@ -74,12 +76,23 @@ def load_words(statistics: dict) -> str:
     if statistics["fh"]["peak_N"] == 0.0:
         return "never touched"
     fh, fx, fy = statistics["fh"], statistics["fx"], statistics["fy"]
+    if "along_current" in statistics:
+        mean = f"mean along the current {number(statistics['along_current']['mean_N'] / 1e3, 3)} kN"
+    else:
+        mean = f"mean along x {number(fx['mean_N'] / 1e3, 3)} kN"
     return (
         f"peak {number(fh['peak_N'] / 1e3, 3)} kN at {number(fh['peak_time_s'], 5)} s, "
-        f"mean along x {number(fx['mean_N'] / 1e3, 3)} kN, "
+        f"{mean}, along x {number(fx['min_N'] / 1e3, 3)} to {number(fx['max_N'] / 1e3, 3)} kN, "
         f"along y {number(fy['min_N'] / 1e3, 3)} to {number(fy['max_N'] / 1e3, 3)} kN, "
         f"in contact {number(100.0 * statistics['contact_time_fraction'], 3)} % of the time"
     )
+
+
+def energy_words(energy: dict) -> str:
+    """How large the residual of the ledger is, beside the work of the loads, where they did any, and the energy turned over."""
+    beside = (("residual_over_work", "the work of current and wind"), ("residual_over_turned_over", "the energy turned over"))
+    words = [f"{number(100.0 * energy[key], 3)} % of {what}" for key, what in beside if energy.get(key) is not None]
+    return f"residual {', '.join(words)}" if words else ""
 
 
 def describe_sweep(folder: Path) -> str:
@@ -94,8 +107,8 @@ def describe_sweep(folder: Path) -> str:
         values = list(dict.fromkeys(value_words(key, run.values[key]) for run in sweep.runs))
         lines.append(f"  {'varied':<12}{axis_label(key)} [{key}]: {'; '.join(values)}")
     for name in sweep.structures:
-        peaks = [run.loads[name]["fx_max"] for run in sweep.runs if "fx_max" in run.loads.get(name, {})]
+        peaks = [run.loads[name]["fh_max"] for run in sweep.runs if "fh_max" in run.loads.get(name, {})]
         if peaks:
             low, high = number(min(peaks) / 1e3, 3), number(max(peaks) / 1e3, 3)
-            lines.append(f"  {'load':<12}{name}: highest force along x from {low} to {high} kN")
+            lines.append(f"  {'load':<12}{name}: highest horizontal force from {low} to {high} kN")
     return "\n".join(lines)

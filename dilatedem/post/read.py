@@ -64,6 +64,16 @@ class RunFolder:
         return None if math.hypot(u, v) == 0.0 else math.degrees(math.atan2(0.0 - v, 0.0 - u))
 
     @property
+    def afloat(self) -> tuple[float, float] | None:
+        """Draft and freeboard [m] of a flat floe of the case's ice; None without water, or where the case does not say."""
+        ice, water = self.case.get("ice", {}), self.case.get("water", {})
+        thickness, densities = ice.get("thickness"), (ice.get("density"), water.get("density"))
+        if thickness is None or None in densities or not water.get("enabled", True):
+            return None
+        draft = float(thickness) * float(densities[0]) / float(densities[1])
+        return draft, float(thickness) - draft
+
+    @property
     def simulated(self) -> float:
         """How far the run got [s]: the latest time in any of its files."""
         times = [float(self.summary.get("simulated_s") or 0.0)]

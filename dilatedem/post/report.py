@@ -15,6 +15,8 @@ from dilatedem.post.labels import axis_label, describe_key, flatten, number, sho
 from dilatedem.post.overview import status_words
 from dilatedem.post.read import RunFolder
 from dilatedem.post.sweeps import Sweep, relative, value_words
+from dilatedem.results.doubts import doubts
+from dilatedem.results.files import read_summary
 
 BODIES_LISTED = 5  # more explicit bodies than this are counted in the case table, not listed
 PAIRS = {"ice_ice": "floe on floe", "ice_structure": "floe on structure"}
@@ -26,7 +28,7 @@ LIMITS = (
     "the whole wetted surface of a floe: about ten times the drag of a formula for the frontal area.",
     "Peaks last tens of milliseconds, and their height and number vary from one random field to the next: "
     "judge by several seeds, not by one run.",
-    "Durations of peaks are counted in whole windows of forces.csv, too long by up to two windows each.",
+    "Durations of hits are counted in whole windows of forces.csv, too long by up to two windows each.",
 )
 LIMITS_OF_LIU2015 = (
     "Contact laws are those of Liu, Long & Ji (2015), mode by mode. They jump where a contact changes its "
@@ -35,6 +37,11 @@ LIMITS_OF_LIU2015 = (
     "jumps create is booked as gain_law in the ledger."
 )
 UNFINISHED = "This run did not reach its end: everything here covers only the part that was simulated."
+
+ONE_HIT = (
+    "These are no error bars of the run. They say how far this one hit, given the state before it, depends on the step; another "
+    "history of the ice, of another step or another seed, has another highest hit. For that spread, run several seeds."
+)
 
 Rows = list[list[str]]
 
@@ -47,8 +54,12 @@ def write_run_report(run: RunFolder, statistics: dict[str, Any], figures: list[t
         title=run.title,
         status=status_words(run),
         message=run.summary.get("message") or "",
+        doubts=statistics["doubts"],
         loads=[
-            {"name": name, "rows": load_rows(entry) + step_rows(run.summary, name), "quantiles": quantile_table(entry)}
+            {
+                "name": name, "rows": load_rows(entry), "quantiles": quantile_table(entry), "step": step_rows(run.summary, name),
+                "one_hit": ONE_HIT,
+            }  # fmt: skip
             for name, entry in statistics["loads"].items()
         ],
         unchecked=unchecked(run.summary),
@@ -95,7 +106,7 @@ def load_rows(statistics: dict[str, Any]) -> Rows:
     """What, value and unit of the load on one structure; none where there is nothing to tell."""
     if not statistics["windows"] or statistics["fh"]["peak_N"] == 0.0:
         return []
-    fh, fx, fy, peaks = statistics["fh"], statistics["fx"], statistics["fy"], statistics["peaks"]
+    fh, fx, fy = statistics["fh"], statistics["fx"], statistics["fy"]
     rows = [
         ["highest horizontal force", kilo(fh["peak_N"]), f"kN, at {number(fh['peak_time_s'], 5)} s"],
         ["force along x, lowest to highest", f"{kilo(fx['min_N'])} to {kilo(fx['max_N'])}", "kN"],
@@ -107,23 +118,28 @@ def load_rows(statistics: dict[str, Any]) -> Rows:
         spread = f"standard deviation of the {window} means along {axis}"
         rows.append([spread, kilo(entry["std_of_window_means_N"]), "kN"])
         rows.append([f"impulse along {axis}", kilo(entry["impulse_Ns"]), "kN s"])
+    for side, words in (("along_current", "along the current"), ("across_current", "across the current, positive to its left")):
+        if side in statistics:
+            rows.append([f"mean force {words}", kilo(statistics[side]["mean_N"]), "kN"])
     rows.append(["share of time in contact", number(100.0 * statistics["contact_time_fraction"], 3), "%"])
-    if peaks["count"]:
-        share = number(100.0 * peaks["threshold_share_of_highest"])
+    if "hits" in statistics:
+        hits = statistics["hits"]
+        apart = f"apart by {number(hits['gap_s'])} s or more below that"
         rows += [
-            [
-                f"separate peaks above {kilo(peaks['threshold_N'])} kN, {share} % of the highest",
-                str(peaks["count"]),
-                "",
-            ],
-            ["mean duration of these peaks", number(1e3 * peaks["mean_duration_s"], 3), "ms"],
-            ["longest of them", number(1e3 * peaks["longest_duration_s"], 3), "ms"],
+            [f"separate hits: horizontal force of at least {kilo(hits['threshold_N'])} kN, {apart}", str(hits["count"]), ""],
+            ["mean duration of these, from the first window above to the last", number(hits["mean_duration_s"], 3), "s"],
+            ["longest of them", number(hits["longest_duration_s"], 3), "s"],
+            ["mean time of a hit above that force", number(hits["mean_time_above_s"], 3), "s"],
         ]
     for half in (45, 90):
         part = (statistics.get("around") or {}).get(f"share_within_{half}_deg_of_upstream")
         if part is not None:
             what = f"share of the load within {half}° of the upstream direction"
             rows.append([what, number(100.0 * part, 3), "%"])
+    around = statistics.get("around") or {}
+    if around:
+        zero = around["zero_of_angles"]
+        rows.append([f"centre of the load, 0° = {zero}", number(around["centre_of_load_from_zero_deg"], 3), "°"])
     return rows
 
 
@@ -136,7 +152,7 @@ def step_rows(summary: dict[str, Any], structure: str) -> Rows:
     kinds = {"fh_max": "highest horizontal force", "impulse_h": f"horizontal {window}", "impulse_x": f"{window} along x"}
     changes = {kind: checked["change"].get(kind) for kind in kinds}
     return [
-        [f"half the time step changes the {kinds[kind]} by", number(100.0 * change, 2), "%"]
+        [f"in the one hit replayed, half the time step changes the {kinds[kind]} by", number(100.0 * change, 2), "%"]
         for kind, change in changes.items()
         if change is not None
     ]
@@ -175,6 +191,9 @@ def energy_rows(run: RunFolder, statistics: dict[str, Any]) -> Rows:
     share = statistics.get("largest_residual_over_work")
     if share is not None:
         rows.append(["largest residual / largest work of the loads", f"{number(100.0 * share, 3)} %", ""])
+    share = (run.summary.get("energy") or {}).get("residual_over_turned_over")
+    if share is not None:
+        rows.append(["largest residual / energy turned over", f"{number(100.0 * share, 3)} %", ""])
     return rows
 
 
@@ -253,7 +272,7 @@ def mean_table(sweep: Sweep, structure: str) -> dict[str, Any]:
     """One row for each setting of the varied keys: number of runs, mean and spread of their loads."""
     rows = []
     for group in group_runs(sweep, sweep.keys[0]) if sweep.keys else []:
-        highest, mean = group.loads(structure, "fx_max") / 1e3, group.loads(structure, "fx_mean") / 1e3
+        highest, mean = group.loads(structure, "fh_max") / 1e3, group.loads(structure, "fx_mean") / 1e3
         if not len(highest):
             continue
         spread = number(float(highest.std(ddof=1)), 3) if len(highest) > 1 else "–"
@@ -282,5 +301,6 @@ def run_table(sweep: Sweep) -> dict[str, Any]:
         cells += [number(load / 1e3) for load in loads] + [number(100.0 * run.residual_over_work, 2)]
         page = run.folder / "report.html"
         link = relative(page, sweep.folder) if page.is_file() else ""
-        rows.append({"name": run.folder.name, "link": link, "cells": cells, "message": run.message})
+        said = [run.message, *doubts(read_summary(run.folder / "summary.json"))]
+        rows.append({"name": run.folder.name, "link": link, "cells": cells, "message": "; ".join(filter(None, said))})
     return {"head": head, "rows": rows}

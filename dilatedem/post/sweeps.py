@@ -91,10 +91,11 @@ def sweep_title(folder: Path, runs: Iterable[SweepRun]) -> str:
     return folder.name
 
 
-def to_float(text: str) -> float:
+def to_float(text: Any) -> float:
+    """A number, or nan where there is none."""
     try:
         return float(text)
-    except ValueError:
+    except (TypeError, ValueError):
         return math.nan
 
 
@@ -115,7 +116,7 @@ def compare_runs(runs: list[RunFolder], folder: Path) -> Sweep:
             status=str(run.summary.get("status", "unknown")),
             message=str(run.summary.get("message") or ""),
             loads={name: headline(load_statistics(history)) for name, history in run.forces.items()},
-            residual_over_work=float(run.summary.get("energy", {}).get("residual_over_work") or math.nan),
+            residual_over_work=to_float(run.summary.get("energy", {}).get("residual_over_work")),
         )
         for run, case in zip(runs, flat, strict=True)
     ]
@@ -150,7 +151,8 @@ def write_table(sweep: Sweep, path: Path) -> None:
             loads = [run.loads.get(name, {}).get(quantity, "") for name, quantity in columns]
             values = ["" if run.values[key] is None else run.values[key] for key in sweep.keys]
             folder = relative(run.folder, sweep.folder)
-            writer.writerow([*values, run.seed, folder, run.status, *loads, run.residual_over_work, run.message])
+            residual = run.residual_over_work if math.isfinite(run.residual_over_work) else ""
+            writer.writerow([*values, run.seed, folder, run.status, *loads, residual, run.message])
 
 
 def relative(path: Path, start: Path) -> str:

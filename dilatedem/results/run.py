@@ -10,6 +10,7 @@ import numpy as np
 
 from dilatedem.errors import CaseError
 from dilatedem.results.archive import Archive, read_archive
+from dilatedem.results.doubts import doubts
 from dilatedem.results.files import list_snapshots, read_case, read_summary
 from dilatedem.results.maps import as_dataset
 from dilatedem.results.packages import imported
@@ -42,6 +43,11 @@ class Run:
     def summary(self) -> dict[str, Any]:
         """summary.json; empty where there is none."""
         return read_summary(self.path / "summary.json")
+
+    @property
+    def doubts(self) -> list[str]:
+        """A sentence for each thing about the energies that makes the loads doubtful, with the way on."""
+        return doubts(self.summary)
 
     @cached_property
     def forces(self) -> pandas.DataFrame:

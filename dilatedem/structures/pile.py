@@ -52,8 +52,11 @@ class Pile(Structure):
         return [Disk(self.center, self.radius)]
 
     def chart(self, extent: float) -> Chart:
-        zero = "angle about the pile's centre: 0 = +x, the lee side; -180 and 180 = -x, the upstream side"
-        return Chart(Along.ANGLE, "Angle around the pile", zero, radius=self.radius)
+        zero = (
+            "angle about the pile's centre, counter-clockwise seen from above: 0 = +x of the world, whatever the current; less "
+            "upstream_deg it is the angle from the side that the current comes from, which figures take for zero"
+        )
+        return Chart(Along.ANGLE, "Angle around the pile from +x", zero, radius=self.radius)
 
     def drawing(self, extent: float) -> list[Polyhedron]:
         return [prism(circle(self.center, self.radius), DRAWN_BOTTOM, DRAWN_TOP)]

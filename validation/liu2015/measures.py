@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from dilatedem.post.loads import angular_statistics, line_load, load_statistics, window_lengths
+from dilatedem.post.loads import angular_statistics, hit_statistics, line_load, load_statistics, window_lengths
 from dilatedem.post.read import RunFolder, open_run
 from dilatedem.results.tables import Table
 from validation.liu2015.ice import Raster, drift, mean_ice, strips
@@ -24,6 +24,8 @@ PASSING_DRIFT = 30.0
 FIRST_HITS = 20.0  # s; the paper's "initial collisions"
 JAM = (60.0, 85.0)  # s; when the paper sees the small floes jam
 COARSE = 0.1  # s; forces are averaged over it before their fluctuation is taken
+#: share of a run's highest force from which on an unbroken row of windows is a peak, as in the runs on record
+PEAK_THRESHOLD = 0.1
 SWING = 0.01  # of the largest force along y; smaller ones are no hit to either side
 
 
@@ -65,6 +67,7 @@ def load_measures(folder: RunFolder) -> dict[str, float]:
     history = folder.forces[PILE]
     time, lengths = history["time_s"], window_lengths(history["time_s"])
     statistics = load_statistics(history)
+    peaks = hit_statistics(history, max(PEAK_THRESHOLD * statistics["fh"]["peak_N"], np.finfo(float).tiny), gap=0.0)
     fx, fy, highest = history["fx_N"], history["fy_N"], history["fh_max_N"]
     drifted = drift(folder, time)
     early, passing = drifted <= EQUAL_DRIFT + 1e-6, drifted <= PASSING_DRIFT + 1e-6
@@ -86,21 +89,22 @@ def load_measures(folder: RunFolder) -> dict[str, float]:
         "fy_impulse_over_fx": ratio(abs(statistics["fy"]["impulse_Ns"]), statistics["fx"]["impulse_Ns"]),
         "fy_positive_share": share(fy, lengths),
         "fy_turns": float(turns(fy)),
-        "peaks": float(statistics["peaks"]["count"]),
-        "peak_duration_s": statistics["peaks"]["mean_duration_s"],
+        "peaks": float(peaks["count"]),
+        "peak_duration_s": peaks["mean_duration_s"],
         "peak_over_mean": ratio(peak, statistics["fx"]["mean_N"]),
         "contact_time_share": statistics["contact_time_fraction"],
         "fh_max_first_hits_N": float(highest[time <= FIRST_HITS].max(initial=0.0)),
         "fluctuation_N": fluctuation(history, 0.0, math.inf),
         "fluctuation_first_hits_N": fluctuation(history, 0.0, FIRST_HITS),
         "fluctuation_jam_over_before": ratio(fluctuation(history, *JAM), fluctuation(history, 0.0, JAM[0])),
-        "residual_over_work": folder.summary.get("energy", {}).get("residual_over_work") or 0.0,
+        "residual_over_work": folder.summary.get("energy", {}).get("residual_over_work") or 0.0,  # null: the loads did no work
         "largest_overlap_m": folder.summary.get("contact", {}).get("largest_overlap_m", math.nan),
     }
     around = angular_statistics(folder.load_maps[PILE], folder.upstream_angle)
     for half in (45, 90):
         measures[f"upstream_{half}_deg_share"] = around.get(f"share_within_{half}_deg_of_upstream", math.nan)
-    measures["centre_of_load_deg"] = around.get("centre_of_load_deg", math.nan)
+    centre = around.get("centre_of_load_from_zero_deg", math.nan) + (folder.upstream_angle or 0.0)
+    measures["centre_of_load_deg"] = (centre + 180.0) % 360.0 - 180.0  # from +x, as in the runs on record
     return measures
 
 

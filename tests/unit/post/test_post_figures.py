@@ -9,14 +9,10 @@ import pytest
 
 from dilatedem.post import canvas
 from dilatedem.post.figures_field import field_figure, plan_figure, speed_figure
-from dilatedem.post.figures_loads import (
-    force_figure,
-    load_around_figure,
-    load_map_figure,
-    peak_figure,
-    seen_from,
-)
-from dilatedem.post.folders import run_drawings
+from dilatedem.post.figures_loads import force_figure, peak_figure
+from dilatedem.post.figures_map import load_around_figure, load_map_figure, seen_from, upstream_place, upstream_side
+from dilatedem.post.folders import hits_on, run_drawings
+from dilatedem.post.loads import angular_statistics
 from dilatedem.post.plan import choose_view, periodic_copies
 from dilatedem.post.read import open_run
 from dilatedem.post.snapshots import snapshots_at
@@ -88,6 +84,15 @@ def test_force_history_keeps_the_extremes_when_windows_are_joined(run):
     assert "kN" in drawing.figure.axes[0].get_ylabel()
 
 
+def test_force_history_says_how_many_hits_there_were_and_what_counts_as_one(run):
+    hits = hits_on(run, run.forces["pile"])
+    drawing = force_figure("pile", run.forces["pile"], hits)
+    words = f"{hits['count']} separate hits: horizontal force of at least"
+    assert drawing.figure.axes[1].get_title("left").startswith(words) and words in drawing.caption
+    assert "apart by 1 s or more below it" in drawing.caption
+    assert "separate" not in force_figure("pile", run.forces["pile"]).caption
+
+
 def test_quiet_structure_has_no_peak_to_draw(run):
     still = {name: np.zeros_like(column) for name, column in run.forces["pile"].items()}
     still["time_s"] = run.forces["pile"]["time_s"]
@@ -95,14 +100,99 @@ def test_quiet_structure_has_no_peak_to_draw(run):
     assert force_figure("pile", still) is not None
 
 
+@pytest.mark.parametrize(("current", "line"), [((0.3, 0.0), "fx_N"), ((0.0, 0.3), "fy_N"), ((0.0, 0.0), "fx_N")])
+def test_peak_is_drawn_along_the_current_wherever_it_goes(current, line, run):
+    history = run.forces["pile"]
+    drawing = peak_figure("pile", history, current, {"threshold_N": 1000.0})
+    axes = drawing.figure.axes[0]
+    drawn = {drawn.get_label(): drawn.get_ydata() for drawn in axes.lines}
+    assert drawn["highest of any step"].max() == pytest.approx(history["fh_max_N"].max() / 1e3)
+    means = next(values for label, values in drawn.items() if label.startswith("mean along"))
+    window = np.argmax(history["fh_max_N"])
+    assert np.min(np.abs(means - history[line][window] / 1e3)) < 1e-12
+    assert ("no current" in drawing.caption) == (current == (0.0, 0.0))
+    assert drawn["a hit: 1 kN"] == [1.0, 1.0] and axes.get_ylabel() == "Horizontal force (kN)"
+
+
+def loaded_at(load_map, angle):
+    """The map with its whole load in the sector of this angle from +x [deg]."""
+    sector = np.searchsorted(load_map.place_edges, angle, side="right") - 1
+    return replace(load_map, impulse=load_map.impulse * 0.0 + np.eye(len(load_map.impulse))[sector][:, None] * 9.0)
+
+
+@pytest.mark.parametrize("upstream", [180.0, -127.5, 92.5, None])
+def test_every_angle_counts_from_upstream(upstream, run):
+    """A load on the upstream side stands at 0 in both figures and in the statistics, and the axes say so."""
+    where = upstream if upstream is not None else 0.0
+    load_map = loaded_at(run.load_maps["pile"], (where + 1.0 + 180.0) % 360.0 - 180.0)
+    assert angular_statistics(load_map, upstream)["centre_of_load_from_zero_deg"] == pytest.approx(0.0, abs=2.51)
+    around = load_around_figure(load_map, upstream).figure
+    axes = around.axes[0]
+    rays = {label.get_text(): np.degrees(tick) for tick, label in zip(axes.get_xticks(), axes.get_xticklabels(), strict=True)}
+    zero = rays["0°"]
+    highest = max(axes.patches, key=lambda bar: bar.get_height())
+    off = (np.degrees(highest.get_x() + 0.5 * highest.get_width()) - zero + 180.0) % 360.0 - 180.0
+    assert abs(off) <= 2.51
+    assert (rays["90°"] - zero) % 360.0 == pytest.approx(90.0)  # counter-clockwise
+    developed = load_map_figure(load_map, upstream).figure.axes[0]
+    edges = developed.collections[0].get_coordinates()[0, :, 0]
+    values = developed.collections[0].get_array().filled(0.0).reshape(len(load_map.height_edges) - 1, -1).sum(axis=0)
+    column = int(np.argmax(values))
+    assert abs(0.5 * (edges[column] + edges[column + 1])) <= 2.51
+    word = "0 = upstream" if upstream is not None else "0 = +x (still water)"
+    for said in (around.get_supxlabel().replace("°", ""), developed.get_xlabel()):
+        assert word in said and "counter-clockwise seen from above" in said
+
+
+def test_a_load_map_shows_impulse_which_does_not_grow_as_bins_shrink(run):
+    load_map = run.load_maps["pile"]
+    drawing = load_map_figure(load_map, 180.0, afloat=(0.45, 0.05))
+    mesh, bar = drawing.figure.axes[0].collections[0], drawing.figure.axes[1]
+    unit = {"Impulse per bin (N s)": 1.0, "Impulse per bin (kN s)": 1e3}[bar.get_ylabel()]
+    assert mesh.get_array().filled(0.0).sum() * unit == pytest.approx(load_map.impulse.sum())
+    low, high = mesh.get_clim()
+    assert high / low == pytest.approx(100.0)
+    # one contact, whose force is booked at one point, in bins of half the width
+    one = loaded_at(load_map, 179.0)
+    halves = np.kron(one.impulse, np.array([[0.0], [1.0]]))
+    fine = replace(one, place_edges=np.linspace(-180.0, 180.0, len(halves) + 1), impulse=halves)
+    peaks = [load_map_figure(each, 180.0).figure.axes[0].collections[0].get_array().max() for each in (one, fine)]
+    bars = [max(bar.get_height() for bar in load_around_figure(each, 180.0).figure.axes[0].patches) for each in (one, fine)]
+    assert peaks[0] == peaks[1] and bars[0] == pytest.approx(bars[1])
+
+
+def test_a_load_map_marks_draft_freeboard_and_upstream(run):
+    assert run.afloat == (pytest.approx(0.5 * 915.0 / 1025.0), pytest.approx(0.5 - 0.5 * 915.0 / 1025.0))
+    axes = load_map_figure(run.load_maps["pile"], 180.0, afloat=run.afloat).figure.axes[0]
+    assert {text.get_text() for text in axes.texts} == {"draft", "freeboard", "upstream"}
+    assert [line.get_ydata()[0] for line in axes.lines][:3] == pytest.approx([0.0, -run.afloat[0], run.afloat[1]])
+    low, high = axes.get_ylim()
+    assert low < -run.afloat[0] and high > run.afloat[1]
+    dry = replace(run, case=run.case | {"water": {"enabled": False, "density": 1025.0}})
+    assert dry.afloat is None and not list(load_map_figure(run.load_maps["pile"], None).figure.axes[0].texts)
+
+
+def test_upstream_on_axes_around_an_outline_and_along_a_line(run):
+    plain = run.load_maps["pile"]
+    corners = np.array([[1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0]]) * [4.0, 1.0] + [10.0, 5.0]  # as a box lays them out
+    box = replace(plain, place="distance", attributes={"center_m": np.array([10.0, 5.0])})
+    places = [upstream_place(box, upstream, corners) for upstream in (90.0, 180.0, -90.0, 0.0)]
+    assert places == pytest.approx([4.0, 9.0, 14.0, 19.0])
+    assert upstream_place(box, None, corners) is None and upstream_place(box, 90.0, np.zeros((0, 2))) is None
+    wall = replace(plain, place="distance", attributes={"axis": np.array([0.0, 1.0, 0.0]), "center_m": np.zeros(3)})
+    assert [upstream_side(wall, upstream) for upstream in (180.0, 135.0, -100.0, None)] == [None, 1.0, -1.0, None]
+    assert upstream_place(wall, 180.0, corners) is None and upstream_side(box, 90.0) is None
+
+
 def test_polar_bars_stand_at_their_sectors(run):
     load_map = run.load_maps["pile"]
-    axes = load_around_figure(load_map, 180.0).figure.axes[0]
+    figure = load_around_figure(load_map, 180.0).figure
+    axes = figure.axes[0]
     heights = np.array([bar.get_height() for bar in axes.patches])
     starts = np.degrees([bar.get_x() for bar in axes.patches])
     assert starts == pytest.approx(load_map.place_edges[:-1])
-    arc = load_map.radius * np.radians(np.diff(load_map.place_edges))
-    assert np.sum(heights * arc) * 1e3 == pytest.approx(load_map.impulse.sum() / load_map.duration)
+    assert figure.get_suptitle() == "Mean load on pile per sector of 5° (N)"
+    assert np.sum(heights) == pytest.approx(load_map.impulse.sum() / load_map.duration)
 
 
 def test_sectors_in_the_order_seen_from_upstream():

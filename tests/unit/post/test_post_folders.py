@@ -6,10 +6,12 @@ import shutil
 import subprocess
 import sys
 
+import numpy as np
 import pytest
 
 from dilatedem.errors import CaseError
 from dilatedem.post import info, post
+from dilatedem.post.read import open_run
 
 PLANE = {"kind": "plane", "name": "quay", "point": [9.0, 0.0, 0.0], "normal": [-1.0, 0.0, 0.0]}
 
@@ -35,7 +37,11 @@ def test_whole_run(make_run, tmp_path):
     found = after.pop("post")
     assert after == before
     assert list(after) == list(before)
-    assert found["loads"]["pile"]["peaks"]["count"] > 0
+    hits = found["loads"]["pile"]["hits"]
+    assert hits["count"] > 0 and hits["threshold_N"] == pytest.approx(np.mean(open_run(folder).floes.mass))
+    page = (folder / "report.html").read_text(encoding="utf-8")
+    assert page.count("separate hits: horizontal force of at least") == 2  # in the table and under the figure of the force
+    assert "centre of the load, 0° = upstream; counter-clockwise seen from above" in page
     assert found["loads"]["pile"]["around"]["share_within_90_deg_of_upstream"] == pytest.approx(1.0)
     check_page(folder / "report.html", pictures=len(figures))
     text = info(folder)
@@ -105,6 +111,21 @@ def test_runs_of_a_shell_loop_are_compared(make_run, tmp_path):
     # The folder of the comparison itself is passed over when a shell's wildcard names it too.
     shutil.rmtree(runs[2])
     assert beside / "report.html" in post([*runs[:2], beside])
+
+
+@pytest.mark.parametrize(("share", "cell", "shown"), [(None, "", "–"), (0.0, "0.0", "0")])
+def test_a_comparison_tells_no_residual_from_none(share, cell, shown, make_run, tmp_path):
+    for seed in (1, 2):
+        folder = make_run(tmp_path / f"seed{seed}", seed=seed, duration=1.0, snapshots=False)
+        summary = json.loads((folder / "summary.json").read_text())
+        summary["energy"]["residual_over_work"] = share
+        (folder / "summary.json").write_text(json.dumps(summary))
+        for name in ("energy.csv", "run.h5", "forces.csv"):
+            (folder / name).unlink()
+    post(sorted(tmp_path.iterdir()))
+    rows = (tmp_path / "comparison/comparison.csv").read_text().splitlines()
+    assert [row.split(",")[-2] for row in rows] == ["residual_over_work", cell, cell]
+    assert (tmp_path / "comparison/report.html").read_text().count(f"<td>{shown}</td></tr>") == 2
 
 
 def test_folder_that_is_neither_is_refused_before_anything_is_written(make_run, tmp_path):

@@ -7,7 +7,10 @@ import pytest
 
 from dilatedem.post.figures_energy import residual_share
 from dilatedem.post.loads import (
+    along_and_across,
     angular_statistics,
+    hit_statistics,
+    hit_threshold,
     line_load,
     load_statistics,
     mean_force_by_place,
@@ -52,18 +55,56 @@ def test_headline_figures():
     assert quantiles["99.9"] == pytest.approx(np.percentile([0.0] * 98 + [1500.0, 3000.0], 99.9))
 
 
-def test_peaks_are_unbroken_rows_of_windows_above_a_tenth_of_the_highest():
-    force = [5000.0, 0.0, 400.0, 600.0, 700.0, 0.0, 600.0]  # 400 is below a tenth of 5000
-    peaks = load_statistics(history_of(force))["peaks"]
-    assert peaks["threshold_N"] == pytest.approx(750.0)
-    assert peaks["count"] == 3
-    assert peaks["longest_duration_s"] == pytest.approx(0.02)
-    assert peaks["mean_duration_s"] == pytest.approx(0.04 / 3.0)
+def pulses(*starts, force=5000.0, windows=400):
+    """A history of 4 s with a pulse of 30 ms at each of these times [s]."""
+    values = np.zeros(windows)
+    for start in starts:
+        values[round(start / 0.01) :][:3] = force
+    return history_of(values)
+
+
+def test_pulses_within_a_second_are_one_hit():
+    hits = hit_statistics(pulses(0.5, 0.6, 1.2, 2.23, 3.5), 1000.0)
+    assert (hits["threshold_N"], hits["gap_s"], hits["count"]) == (1000.0, 1.0, 3)  # 1.23 to 2.23 s is a second
+    assert hits["longest_duration_s"] == pytest.approx(0.73)
+    assert hits["mean_duration_s"] == pytest.approx((0.73 + 0.03 + 0.03) / 3.0)
+    assert hits["mean_time_above_s"] == pytest.approx(5 * 0.03 / 3.0)
+    assert hit_statistics(pulses(0.5, 1.52), 1000.0)["count"] == 1
+    assert hit_statistics(pulses(0.5, 0.6, 1.2), 1000.0, gap=0.0)["count"] == 3
+    assert hit_statistics(pulses(0.0, 3.97), 1000.0)["count"] == 2
+
+
+def test_what_counts_as_a_hit_depends_on_the_ice_and_not_on_the_highest_load():
+    masses = np.array([3000.0, 4000.0])
+    assert hit_threshold(masses) == pytest.approx(3500.0)
+    assert hit_threshold(None) == hit_threshold(np.zeros(0)) == 1000.0
+    small, with_a_giant = pulses(0.5, 2.5), pulses(0.5, 2.5)
+    for name in ("fx_N", "fx_max_N", "fh_max_N"):
+        with_a_giant[name] = with_a_giant[name] + 100.0 * (np.arange(400) == 390) * 5000.0
+    assert hit_statistics(small, hit_threshold(masses))["count"] == 2
+    assert hit_statistics(with_a_giant, hit_threshold(masses))["count"] == 3
+
+
+@pytest.mark.parametrize("count", [0, 1, 100])
+def test_a_load_below_the_threshold_is_no_hit(count):
+    hits = hit_statistics(history_of(np.full(count, 10.0)), 1000.0)
+    assert hits["count"] == 0 and hits["longest_duration_s"] == hits["mean_duration_s"] == hits["mean_time_above_s"] == 0.0
+
+
+def test_forces_along_and_across_the_current():
+    history = history_of([3.0, 0.0], fy=[0.0, 5.0])
+    for current, along, across in (((0.0, 0.3), [0.0, 5.0], [-3.0, 0.0]), ((-0.2, 0.0), [-3.0, 0.0], [0.0, -5.0])):
+        for found, expected in zip(along_and_across(history, current), (along, across), strict=True):
+            assert found == pytest.approx(expected)
+    assert [force.tolist() for force in along_and_across(history, (0.0, 0.0))] == [[3.0, 0.0], [0.0, 5.0]]
+    statistics = load_statistics(history, (0.0, 0.3))
+    assert statistics["along_current"]["mean_N"] == pytest.approx(2.5)
+    assert statistics["across_current"]["impulse_Ns"] == pytest.approx(-0.03)
+    assert "along_current" not in load_statistics(history)
 
 
 def test_nothing_touched():
     statistics = load_statistics(history_of(np.zeros(10)))
-    assert statistics["peaks"]["count"] == 0
     assert statistics["contact_time_fraction"] == 0.0
     assert load_statistics({}) == {"windows": 0}
 
@@ -93,7 +134,10 @@ def test_line_load_adds_up_to_the_force():
 def test_load_sits_where_it_was_put():
     load_map = pile_map(lambda angle: max(0.0, -math.cos(math.radians(angle - 20.0))))
     found = angular_statistics(load_map, 180.0)
-    assert found["centre_of_load_deg"] == pytest.approx(-160.0)
+    assert found["centre_of_load_from_zero_deg"] == pytest.approx(20.0)  # -160 degrees from +x
+    assert found["zero_of_angles"] == "upstream; counter-clockwise seen from above"
+    still = angular_statistics(load_map, None)
+    assert still["centre_of_load_from_zero_deg"] == pytest.approx(-160.0) and still["zero_of_angles"].startswith("+x (still water)")
     assert found["share_within_90_deg_of_upstream"] < 1.0
     seen_from_its_middle = angular_statistics(load_map, -160.0)
     assert seen_from_its_middle["share_within_90_deg_of_upstream"] == pytest.approx(1.0)

@@ -63,7 +63,8 @@ def test_figure_shows_mean_and_spread_over_the_seeds(tmp_path):
     axes = drawing.figure.axes[0]
     line = next(line for line in axes.lines if len(line.get_xdata()) == 3)
     assert line.get_xdata() == pytest.approx([0.25, 0.5, 1.0])
-    assert line.get_ydata() == pytest.approx([0.375, 0.75, 1.5])
+    assert line.get_ydata() == pytest.approx([1.1 * 0.375, 1.1 * 0.75, 1.1 * 1.5])  # horizontal, wherever the current goes
+    assert drawing.figure.axes[0].get_ylabel() == "Highest horizontal force (kN)"
     assert drawing.figure.axes[1].get_xlabel() == "Current speed (m/s)"
     assert "for each contact model" in drawing.caption
 

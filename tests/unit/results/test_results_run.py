@@ -52,6 +52,25 @@ def test_a_load_map_has_names_units_and_the_impulse_of_the_file(crowded):
     assert (found.attrs["structure"], found.attrs["kind"], found.attrs["duration_s"]) == ("pile", "pile", pytest.approx(4.0))
     upstream = found.impulse_Ns.where(abs(found.angle) > 90.0).sum()
     assert upstream > 0.9 * found.impulse_Ns.sum()
+    said = found.attrs["first_axis"]
+    assert "counter-clockwise seen from above" in said and "0 = +x of the world" in said
+    from_side = np.degrees(np.arctan2(-0.15, -0.8))
+    assert found.attrs["upstream_deg"] == pytest.approx(from_side)
+    turned = found.angle_from_upstream
+    assert turned.dims == ("angle",) and "upstream" in turned.attrs["long_name"]
+    assert float(turned[0]) == pytest.approx(-177.5 - from_side)
+    assert found.impulse_Ns.where(abs(turned) < 90.0).sum() > 0.9 * found.impulse_Ns.sum()
+
+
+@pytest.mark.parametrize(("velocity", "upstream"), [([0.0, 0.3], -90.0), ([-0.3, 0.3], -45.0), ([0.0, 0.0], None)])
+def test_a_load_map_says_where_the_current_comes_from(velocity, upstream, tmp_path):
+    case = {"field": {"source": "bodies"}, "structure": [{"kind": "pile"}], "time": {"duration": 0.01}}
+    ball = {"vertices": [[0.0, 0.0, 0.0]], "dilated_radius": 0.2}
+    found = dilatedem.run(case | {"body": [ball]}, tmp_path / "run", water={"velocity": velocity}).load_map("pile")
+    assert found.attrs["upstream_deg"] == (upstream if upstream is not None else pytest.approx(np.nan, nan_ok=True))
+    assert ("angle_from_upstream" in found.coords) == (upstream is not None)
+    if upstream is not None:
+        assert float(found.angle_from_upstream.sel(angle=upstream, method="nearest")) == pytest.approx(0.0, abs=2.5)
 
 
 def test_a_load_map_on_a_plane_goes_by_distance(make_run, tmp_path):

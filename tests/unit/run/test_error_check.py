@@ -230,6 +230,8 @@ def test_info_and_report_tell_the_error(tmp_path):
     assert f"step error  {found['message']}" in info(out)
     page = (out / "report.html").read_text(encoding="utf-8")
     assert page.count("half the time step changes the") == 3
+    for text in (found["message"], info(out), page):
+        assert "one hit" in text and "no error bar" in text and "another history" in text
     assert json.loads((out / "summary.json").read_text())["error_check"] == found
     summary_of(one_floe(structure=(), duration=0.02), out)
     run = open_run(out)
