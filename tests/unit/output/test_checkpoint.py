@@ -111,10 +111,10 @@ def test_faults_are_one_sentence(tmp_path):
     checkpoint.save(path, {"clock": state()[1]}, {})
     whole = path.read_bytes()
     path.write_bytes(whole[:-200])
-    with pytest.raises(CaseError, match="not a readable checkpoint"):
+    with pytest.raises(CaseError, match="is damaged"):
         checkpoint.load(path)
     path.write_bytes(b"")
-    with pytest.raises(CaseError, match="not a readable checkpoint"):
+    with pytest.raises(CaseError, match="is damaged"):
         checkpoint.load(path)
 
 
@@ -129,7 +129,10 @@ def test_a_file_of_another_format_is_refused_by_its_number(tmp_path):
         file.attrs["format"] = 1
         file.attrs["meta"] = "{}"
         file["clock/step"] = np.zeros(1)
-    with pytest.raises(CaseError, match="checkpoint format 1, but this version reads 3"):
+    with pytest.raises(CaseError, match="is damaged, or no checkpoint of format 4"):
+        checkpoint.load(path)
+    path.write_bytes(b"whatever it holds" + b"dilatedem checkpoint 5 sha256 " + 64 * b"0" + b"\n")
+    with pytest.raises(CaseError, match="checkpoint format 5, but this version reads 4"):
         checkpoint.load(path)
 
 
