@@ -62,7 +62,7 @@ def stand_in(job):
 @pytest.fixture
 def quick(monkeypatch):
     monkeypatch.setattr(sweeps, "_command", stand_in)
-    monkeypatch.setattr(sweeps, "_compile_once", lambda models: None)
+    monkeypatch.setattr(sweeps, "_compile_once", lambda models, line: None)
 
 
 def rows(out: Path) -> list[dict[str, str]]:
@@ -176,7 +176,7 @@ def test_an_interrupt_lets_the_running_cases_save_their_state(tmp_path, signal_n
     program = (
         "import sys\nsys.path.insert(0, sys.argv.pop(1))\n"
         "import test_sweep\nfrom dilatedem import cli, sweep\n"
-        "sweep._command, sweep._compile_once = test_sweep.stand_in, lambda models: None\ncli.main()"
+        "sweep._command, sweep._compile_once = test_sweep.stand_in, lambda models, line: None\ncli.main()"
     )
     arguments = ["sweep", PILE, "--vary", "contact.friction=0.1,0.6", "--seeds", "2", "--jobs", "3"]
     arguments += ["--out", out]
