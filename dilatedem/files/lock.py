@@ -74,7 +74,10 @@ class Lock:
                     raise CaseError(f"{self._folder}: another process is at work in it; wait for its end or choose another --out")
                 if _is_there(descriptor, self._path):
                     return descriptor
-            except BaseException:
+            except BaseException as fault:
+                if self._new and not isinstance(fault, CaseError):
+                    with suppress(OSError):
+                        os.unlink(self._path)
                 os.close(descriptor)
                 raise
             os.close(descriptor)  # its owner removed the file in between
