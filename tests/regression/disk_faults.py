@@ -7,7 +7,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 #: of module `os`: those that name a path, and those that take a descriptor
-BY_PATH = ("open", "mkdir", "rmdir", "unlink", "replace", "stat", "lstat", "scandir", "listdir", "access")
+BY_PATH = ("open", "mkdir", "rmdir", "unlink", "replace", "stat", "lstat", "scandir", "listdir")
 BY_DESCRIPTOR = ("write", "fsync", "ftruncate", "lseek", "fstat")
 
 
