@@ -10,6 +10,26 @@ from pathlib import Path
 BY_PATH = ("open", "mkdir", "rmdir", "unlink", "replace", "stat", "lstat", "scandir", "listdir")
 BY_DESCRIPTOR = ("write", "fsync", "ftruncate", "lseek", "fstat")
 
+#: two floes and a pile: in 0.05 s there is something in every file, and a state is saved four times
+CASE = """
+[field]
+source = "bodies"
+[time]
+duration = 0.05
+[output]
+snapshot_interval = 0.02
+checkpoint_interval = 0.02
+track = "all"
+[[structure]]
+kind = "pile"
+center = [3.4, 0.0]
+[[body]]
+outline = [[0.0, 0.0], [1.5, 0.0], [1.5, 2.0], [0.0, 2.0]]
+velocity = [0.5, 0.0, 0.0]
+[[body]]
+outline = [[-3.0, 0.0], [-1.0, 0.0], [-1.0, 2.0], [-3.0, 2.0]]
+"""
+
 
 class DiskFault:
     """Within `with`, call number `fails` (from 0; None for none) on a file under `folder` raises OSError `number`.

@@ -10,7 +10,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from disk_faults import DiskFault
+from disk_faults import CASE, DiskFault
 from folders import assert_same_run, in_process
 from test_resume import interrupt_after
 
@@ -23,24 +23,6 @@ NUMBERS = (
     errno.ENOSPC, errno.EIO, errno.ENAMETOOLONG, errno.EEXIST, errno.ELOOP, errno.ENOENT, errno.EISDIR, errno.EACCES, errno.EROFS,
     errno.ENOTDIR, errno.EDQUOT,
 )  # fmt: skip
-CASE = """
-[field]
-source = "bodies"
-[time]
-duration = 0.05
-[output]
-snapshot_interval = 0.02
-checkpoint_interval = 0.02
-track = "all"
-[[structure]]
-kind = "pile"
-center = [3.4, 0.0]
-[[body]]
-outline = [[0.0, 0.0], [1.5, 0.0], [1.5, 2.0], [0.0, 2.0]]
-velocity = [0.5, 0.0, 0.0]
-[[body]]
-outline = [[-3.0, 0.0], [-1.0, 0.0], [-1.0, 2.0], [-3.0, 2.0]]
-"""
 
 
 @pytest.fixture(scope="module")

@@ -185,7 +185,10 @@ def test_the_digest_is_of_the_whole_program():
     assert cache._PACKAGE == Path(dilatedem.__file__).parent
 
 
-SHOW = "import os, sys, tempfile\ntempfile.tempdir = sys.argv[1]\nfrom dilatedem.jit import cache\nprint(os.environ['NUMBA_CACHE_DIR'])"
+SHOW = (
+    "import os, sys, tempfile\ntempfile.tempdir = sys.argv[1]\n"
+    "from dilatedem.jit import cache\nprint(os.environ['NUMBA_CACHE_DIR'])"
+)
 
 
 def chosen_folder(temporary: Path, home: str = "/dev/null") -> Path:
