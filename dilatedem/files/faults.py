@@ -11,9 +11,9 @@ FULL = frozenset({errno.ENOSPC, getattr(errno, "EDQUOT", errno.ENOSPC)})
 
 def sentence(error: OSError) -> str:
     """Which file, and why."""
-    # not error.strerror where there is a number: HDF5 puts a paragraph there
-    reason = os.strerror(error.errno) if error.errno else str(error).partition("\n")[0] or type(error).__name__
-    return f"{error.filename or 'output'}: {reason}"
+    if not error.errno:
+        return str(error).partition("\n")[0] or type(error).__name__
+    return f"{error.filename or 'output'}: {os.strerror(error.errno)}"  # not error.strerror: HDF5 puts a paragraph there
 
 
 @contextmanager

@@ -82,7 +82,7 @@ def load(path) -> tuple[dict[str, dict[str, object]], dict]:
     data = path.read_bytes()
     seal = SEAL.search(data, max(0, len(data) - SEAL_BYTES))
     if not seal or seal.end() != len(data):
-        raise CaseError(f"{path}: is damaged, or no checkpoint of format {FORMAT}; start anew with --overwrite")
+        raise CaseError(f"{path}: is damaged, or written by another version (format {FORMAT} is read); start anew with --overwrite")
     if int(seal[1]) != FORMAT:
         raise CaseError(f"{path}: checkpoint format {int(seal[1])}, but this version reads {FORMAT}; start anew with --overwrite")
     image = memoryview(data)[: seal.start()]
