@@ -101,7 +101,7 @@ def was_used(folder: Path) -> bool:
 def in_use(folder: Path) -> bool:
     """Whether some process holds the lock of a folder."""
     try:
-        descriptor = open_file(Path(folder) / LOCK, os.O_RDONLY)
+        descriptor = open_file(Path(folder) / LOCK, os.O_RDWR)  # network file systems lock no file that may only be read
     except OSError:
         return False
     try:

@@ -32,6 +32,14 @@ def refuse_links(paths: Iterable[Path]) -> None:
                 raise CaseError(f"{place}: is a link, and nothing is written through links; move it away or choose another folder")
 
 
+def refuse_other_kinds(files: Iterable[Path], folders: Iterable[Path]) -> None:
+    """Raises CaseError for a folder in place of a file, or the other way round: it could be neither replaced nor removed."""
+    wrong = [(path, "no file") for path in files if path.exists() and not path.is_file()]
+    wrong += [(path, "no folder") for path in folders if path.exists() and not path.is_dir()]
+    if wrong:
+        raise CaseError(f"{wrong[0][0]}: stands in the way: it is {wrong[0][1]}; move it away or choose another folder")
+
+
 def refuse_foreign(folder: Path, paths: Iterable[Path], what: str) -> None:
     """Raises CaseError for the first of these paths where there is anything but an empty folder.
 

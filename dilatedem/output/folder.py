@@ -7,7 +7,7 @@ from pathlib import Path
 from dilatedem.errors import CaseError
 from dilatedem.files.atomic import TEMPORARY
 from dilatedem.files.lock import was_used
-from dilatedem.files.whose import is_marked, matching, refuse_foreign, refuse_links
+from dilatedem.files.whose import is_marked, matching, refuse_foreign, refuse_links, refuse_other_kinds
 
 CASE = "case.toml"
 FORCES = "forces.csv"
@@ -61,6 +61,7 @@ def check(folder: Path, *, resume: bool = False, overwrite: bool = False) -> Non
     if is_run(folder) and not (resume or overwrite):
         raise CaseError(f"{folder}: holds a run already; continue it with --resume, replace it with --overwrite, or choose --out")
     refuse_links([*(folder / name for name in PARTS), *_own(folder)])
+    refuse_other_kinds((folder / name for name in FILES), (folder / name for name in PARTS))
     if not (resume or is_run(folder)):
         refuse_foreign(folder, (folder / name for name in (*FILES, *PARTS)), "run")
 

@@ -41,7 +41,7 @@ class Kind(NamedTuple):
 
 KINDS = [
     Kind(case, duration, sides, model, threads)
-    for case, duration, sides in (("crowded", 2.0, "open and periodic"), ("mixed", 1.0, "walls"))
+    for case, duration, sides in (("crowded", 1.2, "open and periodic"), ("mixed", 0.6, "walls"))
     for model in ("liu2015", "consistent")
     for threads in (1, 2)
 ]

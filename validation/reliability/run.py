@@ -7,6 +7,7 @@ from the root of the repository. Parts that are not asked for keep their rows.
 
 import argparse
 import json
+import os
 import re
 import subprocess
 import sys
@@ -104,6 +105,8 @@ def main() -> None:
     parser.add_argument("--post-every", type=int, default=1, help="the same for `post`, which takes longer")
     parser.add_argument("--part", action="append", choices=PARTS, help="only these; again for more")
     given = parser.parse_args()
+    os.environ.setdefault("OMP_WAIT_POLICY", "PASSIVE")  # two threads that wait asleep, where other programs want the cores
+    os.environ.setdefault("GOMP_SPINCOUNT", "0")
     for part in given.part or PARTS:
         with tempfile.TemporaryDirectory() as folder:
             write(part, globals()[part](Path(folder), given))

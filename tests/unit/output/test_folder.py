@@ -94,6 +94,18 @@ def test_links_are_not_followed(name, resume, tmp_path):
     assert (elsewhere / "ice_000000.vtu").read_text() == "mine"
 
 
+@pytest.mark.parametrize("name", ["energy.csv", "restart.h5", "snapshots"])
+@pytest.mark.parametrize("resume", [False, True])
+def test_what_could_not_be_removed_is_told_before_anything_is(name, resume, tmp_path):
+    out = made(tmp_path / "out", names=("summary.json",))
+    if name == "snapshots":
+        (out / name).write_text("mine")
+    else:
+        (out / name).mkdir()
+    with pytest.raises(CaseError, match=f"{name}: stands in the way: it is no "):
+        folder.check(out, overwrite=not resume, resume=resume)
+
+
 def test_whenever_clearing_is_killed_the_folder_may_be_overwritten(tmp_path, monkeypatch):
     out = made(tmp_path / "out", names=folder.FILES[:-1])
     with Lock(out) as lock:
