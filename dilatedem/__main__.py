@@ -1,5 +1,18 @@
-"""`python -m dilatedem`: the command line."""
+"""The command `dilatedem`, and `python -m dilatedem`."""
 
-from dilatedem.cli import main
+from dilatedem import interrupts
 
-main()
+
+def main() -> None:
+    """The command line, with Ctrl-C heard from the first moment on: loading what it needs takes a while."""
+    try:
+        with interrupts.heard_once():
+            from dilatedem import cli
+
+            cli.main()
+    except KeyboardInterrupt:
+        raise SystemExit(interrupts.INTERRUPTED) from None
+
+
+if __name__ == "__main__":
+    main()

@@ -3,32 +3,23 @@
 Whatever a command needs is imported when it runs, so that `--help` answers at once.
 """
 
-import errno
 import functools
-import os
 import sys
 from collections.abc import Callable, Iterable, Mapping
+from contextlib import suppress
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 
-from dilatedem import __version__
+from dilatedem import __version__, interrupts, lifeline
 from dilatedem.errors import CaseError, Interrupted, SimulationStopped
+from dilatedem.files.faults import FULL, sentence
 from dilatedem.garbage import seldom_collected
 
 EXIT_WRONG = 2
 EXIT_STOPPED = 3
 EXIT_INTERRUPTED = 130
-
-# What a file system refuses, by whether it does so at the start or in the middle of the work.
-_FAULTS_OF_THE_DISK = {
-    errno.EACCES: EXIT_WRONG,
-    errno.EROFS: EXIT_WRONG,
-    errno.ENOTDIR: EXIT_WRONG,
-    errno.EDQUOT: EXIT_STOPPED,
-    errno.ENOSPC: EXIT_STOPPED,
-}
 
 app = typer.Typer(
     name="dilatedem",
@@ -70,12 +61,9 @@ def known_faults(command: Callable) -> Callable:
         except KeyboardInterrupt:
             _end("interrupted", EXIT_INTERRUPTED)
         except OSError as error:
-            if error.errno not in _FAULTS_OF_THE_DISK:
-                raise
-            code = _FAULTS_OF_THE_DISK[error.errno]
-            way_on = "; make room and go on with --resume" if code == EXIT_STOPPED and command.__name__ == "run" else ""
-            # not error.strerror: HDF5 puts a paragraph there
-            _end(f"{error.filename or 'output'}: {os.strerror(error.errno)}{way_on}", code)
+            full = error.errno in FULL
+            way_on = "; make room and go on with --resume" if full and command.__name__ == "run" else ""
+            _end(f"{sentence(error)}{way_on}", EXIT_STOPPED if full else EXIT_WRONG)
 
     return wrapped
 
@@ -264,12 +252,15 @@ def schema() -> None:
 
 def main() -> None:
     """Entry point of the `dilatedem` command."""
-    with seldom_collected():
+    lifeline.watch()
+    with interrupts.heard_once(), seldom_collected():
         app()
 
 
 def _end(message: str, code: int) -> None:
-    print(message, file=sys.stderr)
+    interrupts.program_ends()
+    with suppress(OSError):  # the terminal may be gone
+        print(message, file=sys.stderr)
     raise typer.Exit(code) from None
 
 

@@ -1,5 +1,7 @@
 """The ice field alone: field.vtu, field.png and field.json, without a simulation."""
 
+import io
+import json
 import math
 from collections.abc import Callable
 from pathlib import Path
@@ -7,44 +9,63 @@ from pathlib import Path
 import numpy as np
 
 from dilatedem.case.schema import Case
-from dilatedem.errors import CaseError
-from dilatedem.output.atomic import replacing
+from dilatedem.errors import CaseError, SimulationStopped
+from dilatedem.files.atomic import write_bytes
+from dilatedem.files.faults import told_as
+from dilatedem.files.whose import refuse_foreign, refuse_links
 from dilatedem.output.folder import holds_run
 from dilatedem.output.summary import write_json
 from dilatedem.output.vtu import write_shapes
 from dilatedem.scene.place import Scene, compose
 
 SIZE_MAP = "viridis"
+FACTS = "field.json"
+FILES = (FACTS, "field.vtu", "field.png")
 
 
 def generate(case: Case, out: Path, *, overwrite: bool = False) -> dict:
     """Write the ice field of `case` into the folder `out`; what is returned stands in field.json.
 
     An earlier field in the folder is replaced. Raises CaseError, with nothing written, if the folder holds a
-    run (unless `overwrite`) or the field cannot be built.
+    run (unless `overwrite`), a file of somebody else in the way, or the field cannot be built; SimulationStopped for what the disk
+    refuses while it is written.
     """
     out = Path(out)
-    if holds_run(out) and not overwrite:
-        raise CaseError(
-            f"{out}: holds a run, which a new field could contradict; choose another folder (--out)"
-        )
+    with told_as(CaseError):
+        if holds_run(out) and not overwrite:
+            raise CaseError(
+                f"{out}: holds a run, which a new field could contradict; choose another folder (--out)"
+            )
+        refuse_links(out / name for name in FILES)
+        if not _holds_field(out):
+            refuse_foreign(out, (out / name for name in FILES), "field")
     scene = compose(case)
     facts = field_facts(case, scene)
-    save_picture = _picture(case, scene)
+    draw_picture = _picture(case, scene)
 
-    out.mkdir(parents=True, exist_ok=True)
-    write_shapes(
-        out / "field.vtu",
-        [shape.outer for shape in scene.shapes],
-        scene.position,
-        scene.orientation,
-        {"body": np.arange(scene.count), "floe_size": np.sqrt(scene.plan_area)},
-        order=scene.order,
-    )
-    with replacing(out / "field.png") as temporary:
-        save_picture(temporary)
-    write_json(out / "field.json", facts)
+    with told_as(CaseError):
+        out.mkdir(parents=True, exist_ok=True)
+    with told_as(SimulationStopped):
+        write_json(out / FACTS, facts)  # first: it says whose the others are
+        write_shapes(
+            out / "field.vtu",
+            [shape.outer for shape in scene.shapes],
+            scene.position,
+            scene.orientation,
+            {"body": np.arange(scene.count), "floe_size": np.sqrt(scene.plan_area)},
+            order=scene.order,
+        )
+        write_bytes(out / "field.png", draw_picture())
     return facts
+
+
+def _holds_field(folder: Path) -> bool:
+    """Whether `generate` has written into this folder before."""
+    try:
+        facts = json.loads((folder / FACTS).read_bytes())
+    except (OSError, ValueError):
+        return False
+    return isinstance(facts, dict) and "concentration_without_left_out" in facts
 
 
 def field_facts(case: Case, scene: Scene) -> dict:
@@ -74,8 +95,8 @@ def field_facts(case: Case, scene: Scene) -> dict:
     }
 
 
-def _picture(case: Case, placed: Scene) -> Callable[[Path], None]:
-    """The plan of the field, floes coloured by size; call the result with a path to save it there as PNG."""
+def _picture(case: Case, placed: Scene) -> Callable[[], bytes]:
+    """The plan of the field, floes coloured by size; call the result for the bytes of a PNG."""
     # Imported here: matplotlib takes half a second, which a wrong case should not wait for.
     from dilatedem.post import canvas, plan
     from dilatedem.post.figures_field import panel_height
@@ -116,9 +137,13 @@ def _picture(case: Case, placed: Scene) -> Callable[[Path], None]:
         return canvas.Drawing("field", "Ice field", "", figure)
 
     drawing = draw()
-    return lambda path: drawing.figure.savefig(
-        path, format="png", dpi=canvas.PNG_DPI, metadata={"Software": None}
-    )
+
+    def picture() -> bytes:
+        image = io.BytesIO()
+        drawing.figure.savefig(image, format="png", dpi=canvas.PNG_DPI, metadata={"Software": None})
+        return image.getvalue()
+
+    return picture
 
 
 def _title(case: Case, count: int) -> str:

@@ -9,26 +9,35 @@ import csv
 import io
 import json
 import os
-import signal
 import subprocess
 import sys
-import threading
-from collections.abc import Iterator, Sequence
+import time
+from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
-from contextlib import contextmanager
-from dataclasses import dataclass, field
+from contextlib import suppress
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from dilatedem import lifeline
 from dilatedem.case import grid, load, write
 from dilatedem.case.overrides import Override, parse
 from dilatedem.case.schema import Case
+from dilatedem.children import Children, heard, say
 from dilatedem.errors import CaseError, Interrupted, SimulationStopped
+from dilatedem.files.atomic import write_text
+from dilatedem.files.faults import told_as
+from dilatedem.files.lock import Lock, in_use
+from dilatedem.files.whose import refuse_foreign, refuse_links
+from dilatedem.output import folder
 
 TABLE = "sweep.csv"
 
 # Of summary.json's loads, these go to the table, as <structure>_<load>.
 LOADS = ("fx_max_N", "fx_mean_N", "fy_max_N", "fy_min_N", "fh_max_N")
+
+# So long a resumed sweep waits for cases that still save their state [s].
+PATIENCE_S = 10.0
 
 # As many faults of the cases are listed; a wrong key is wrong in every case of a grid.
 MOST_FAULTS = 20
@@ -72,15 +81,25 @@ def sweep(
     if scheduler is not None:
         raise CaseError(f"--scheduler {scheduler}: sweeps over a cluster are not available yet; use --jobs")
     todo = plan(path, vary=vary, seeds=seeds, out=out, overrides=overrides)
-    _look_for_earlier_runs(todo, out, resume)
+    with told_as(CaseError):
+        _look_for_earlier_runs(todo, out, resume)
+        with Lock(out) as lock:
+            _look_for_earlier_runs(todo, out, resume)  # again: another sweep may have ended here in between
+            with told_as(SimulationStopped, lambda error: "; --resume goes on"):
+                return _sweep(todo, out, jobs, lock)
+
+
+def _sweep(todo: list[Job], out: Path, jobs: int | None, lock: Lock) -> Path:
+    """The cases that wait, in a folder that nobody else works in."""
     waiting = [job for job in todo if job.status == "waiting"]
     workers = min(jobs or _core_count(), max(len(waiting), 1))
-    _say(f"{len(todo)} cases in {out}, {len(todo) - len(waiting)} of them done before, {workers} at a time")
-    out.mkdir(parents=True, exist_ok=True)
+    say(f"{len(todo)} cases in {out}, {len(todo) - len(waiting)} of them done before, {workers} at a time")
+    lock.keep()
     _write_table(todo, out)
     if waiting:
-        _compile_once({job.case.contact.model for job in waiting})
-        _run_all(todo, waiting, workers, out)
+        with lifeline.held() as line:
+            _compile_once({job.case.contact.model for job in waiting}, line)
+            _run_all(todo, waiting, workers, out, line)
     unfinished = [job for job in todo if job.status != "completed"]
     if unfinished:
         names = "\n".join(f"  {job.folder.name}: {job.status}: {job.message}" for job in unfinished)
@@ -129,33 +148,59 @@ def _look_for_earlier_runs(todo: list[Job], out: Path, resume: bool) -> None:
     """Refuses to overwrite; when resuming, marks what is finished and refuses to mix different cases."""
     if (out / "summary.json").exists():
         raise CaseError(f"{out}: holds a single run; choose another --out")
+    refuse_links([out / TABLE, *(place for job in todo for place in (job.folder, _log(job)))])
     if not resume:
         if (out / TABLE).exists() or any(job.folder.exists() for job in todo):
             raise CaseError(f"{out}: holds a sweep already; go on with --resume or choose another --out")
+        refuse_foreign(out, [out / TABLE, *map(_log, todo)], "sweep")
         return
+    if (out / TABLE).exists() and not _is_ours(out / TABLE):
+        raise CaseError(f"{out / TABLE}: stands in the way: it is no table of a sweep; move it away or choose another --out")
+    _wait_for_their_end(todo)
     for job in todo:
         written = job.folder / "case.toml"
-        if not written.exists():
-            continue
-        if load.load(written) != job.case:
+        if written.exists() and load.load(written) != job.case:
             raise CaseError(f"{written}: is not the case of this sweep; choose another --out")
-        if _summary(job).get("status") == "completed":
+        if written.exists() and _summary(job).get("status") == "completed":
             job.status = "completed"
+        else:
+            folder.check(job.folder, resume=(job.folder / folder.CHECKPOINT).exists(), overwrite=True)
+
+
+def _is_ours(table: Path) -> bool:
+    with open(table, encoding="utf-8", errors="replace") as file:
+        return {"seed", "run", "status"} <= set(file.readline().rstrip("\n").split(","))
+
+
+def _wait_for_their_end(todo: list[Job]) -> None:
+    """Cases of a sweep that was killed save their state and end: they are waited for. Raises CaseError for one that goes on."""
+    given_up = time.monotonic() + PATIENCE_S
+    while running := [job.folder for job in todo if in_use(job.folder)]:
+        if time.monotonic() > given_up:
+            raise CaseError(f"{running[0]}: another process is at work in it; wait for its end, then go on with --resume")
+        time.sleep(0.1)
+
+
+def _log(job: Job) -> Path:
+    """Where the last words of a case go that failed."""
+    return job.folder.with_name(f"{job.folder.name}.log")
 
 
 def _core_count() -> int:
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
-def _compile_once(models: set[str]) -> None:
+def _compile_once(models: set[str], line: int) -> None:
     """Fills Numba's cache for some contact models, or every case would compile the same kernels at the same time.
 
     Done by a process of its own, so that an interrupt ends it and its memory is given back. Its failure is
     left to the cases, which meet the same fault and report it.
     """
     for model in sorted(models):
-        command = [sys.executable, "-c", f"from dilatedem.run.loop import compile_kernels; compile_kernels(model={model!r})"]
-        subprocess.run(command, stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL, check=False)
+        program = "from dilatedem import lifeline; lifeline.watch(); from dilatedem.run.loop import compile_kernels; "
+        command = [sys.executable, "-c", f"{program}compile_kernels(model={model!r})"]
+        given = lifeline.given(line, os.environ)
+        subprocess.run(command, stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL, check=False, **given)
 
 
 def _command(job: Job) -> list[str]:
@@ -168,108 +213,35 @@ def _command(job: Job) -> list[str]:
     return command
 
 
-def _run_all(todo: list[Job], waiting: list[Job], workers: int, out: Path) -> None:
+def _run_all(todo: list[Job], waiting: list[Job], workers: int, out: Path, line: int) -> None:
     """Runs the waiting cases, `workers` at a time; the table is up to date after each."""
-    processes = _Processes()
-    with _terminated_like_interrupted(), ThreadPoolExecutor(workers) as pool:
-        futures = {pool.submit(processes.run, job): job for job in waiting}
+    children = Children(line)
+    with heard(children), ThreadPoolExecutor(workers) as pool:
+        futures = {pool.submit(_run, job, children): job for job in waiting}
         try:
             for done, future in enumerate(as_completed(futures), start=1):
                 future.result()
                 job = futures[future]
                 _write_table(todo, out)
                 message = f": {job.message}" if job.message else ""
-                _say(f"[{done}/{len(waiting)}] {job.folder.name}: {job.status}{message}")
-        except KeyboardInterrupt:
-            _say("stopping; the running cases save their state (Ctrl-C again: without saving)")
-            processes.interrupt()
-            try:
-                pool.shutdown(cancel_futures=True)
-            except KeyboardInterrupt:
-                processes.kill()
-                pool.shutdown(cancel_futures=True)
-            _write_table(todo, out)
-            finished = sum(job.status == "completed" for job in todo)
-            text = f"{out}: interrupted with {finished} of {len(todo)} cases completed; --resume goes on"
-            raise Interrupted(text) from None
+                if job.status != "waiting":
+                    say(f"[{done}/{len(waiting)}] {job.folder.name}: {job.status}{message}")
+        except BaseException:  # the disk refused something: what cannot be noted is not gone on with
+            children.interrupt()
+            raise
+    if children.stopping:
+        finished = sum(job.status == "completed" for job in todo)
+        raise Interrupted(f"{out}: interrupted with {finished} of {len(todo)} cases completed; --resume goes on")
 
 
-@contextmanager
-def _terminated_like_interrupted() -> Iterator[None]:
-    """Batch systems end a job with SIGTERM: then, too, the running cases shall save their state."""
-    if threading.current_thread() is not threading.main_thread():
-        yield
-        return
-
-    def interrupt(*_: Any) -> None:
-        raise KeyboardInterrupt
-
-    before = signal.signal(signal.SIGTERM, interrupt)
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGTERM, before)
-
-
-@dataclass
-class _Processes:
-    """The cases that are running now, so that they can be told to stop."""
-
-    lock: threading.Lock = field(default_factory=threading.Lock)
-    running: set[subprocess.Popen] = field(default_factory=set)
-    stopping: bool = False
-
-    def run(self, job: Job) -> None:
-        """Runs one case to its end and notes on the job how it ended."""
-        environment = {**os.environ, "NUMBA_NUM_THREADS": "1"}
-        with self.lock:
-            if self.stopping:
-                return
-            # A session of its own: a Ctrl-C in the terminal reaches the children through us, and once only.
-            process = subprocess.Popen(
-                _command(job),
-                stdin=subprocess.PIPE,
-                stdout=subprocess.DEVNULL,
-                stderr=subprocess.PIPE,
-                text=True,
-                env=environment,
-                start_new_session=True,
-            )
-            self.running.add(process)
-        _, said = process.communicate(write.dump(job.case))
-        with self.lock:
-            self.running.discard(process)
-            stopped_by_us = self.stopping
-        job.status, job.message = _outcome(process.returncode, said, stopped_by_us)
+def _run(job: Job, children: Children) -> None:
+    """Runs one case to its end and notes on the job how it ended."""
+    ended = children.run(_command(job), write.dump(job.case))
+    if ended:
+        job.status, job.message, said = ended
         if job.status == "failed":
-            job.folder.with_name(f"{job.folder.name}.log").write_text(said, encoding="utf-8")
-
-    def interrupt(self) -> None:
-        with self.lock:
-            self.stopping = True
-            for process in self.running:
-                process.send_signal(signal.SIGINT)
-
-    def kill(self) -> None:
-        with self.lock:
-            for process in self.running:
-                process.kill()
-
-
-def _outcome(code: int, said: str, stopped_by_us: bool) -> tuple[str, str]:
-    """Status and message from what a process returned and wrote to standard error."""
-    lines = [line.strip() for line in said.splitlines() if line.strip()]
-    if code == 0:
-        return "completed", ""
-    if code == 130 or stopped_by_us:
-        return "interrupted", "--resume goes on"
-    if code == 3:
-        return "stopped", "; ".join(lines)
-    if code == 2:
-        return "failed", "; ".join(lines)
-    if code < 0:
-        return "failed", f"killed by signal {-code}"
-    return "failed", lines[-1] if lines else f"exit code {code}"
+            with suppress(OSError):  # its last line is in the table, and a full disk meets that as well
+                write_text(_log(job), said)
 
 
 def _summary(job: Job) -> dict[str, Any]:
@@ -292,10 +264,7 @@ def _write_table(todo: list[Job], out: Path) -> None:
     table = csv.DictWriter(text, [*columns, "message"], restval="", lineterminator="\n")
     table.writeheader()
     table.writerows(rows)
-    path = out / TABLE
-    partial = path.with_name(f"{TABLE}.partial")
-    partial.write_text(text.getvalue(), encoding="utf-8")
-    os.replace(partial, path)
+    write_text(out / TABLE, text.getvalue())
 
 
 def _row(job: Job) -> dict[str, Any]:
@@ -313,7 +282,3 @@ def _row(job: Job) -> dict[str, Any]:
 
 def _cell(value: Any) -> str:
     return value if isinstance(value, str) else json.dumps(value, default=str)
-
-
-def _say(text: str) -> None:
-    print(text, file=sys.stderr, flush=True)

@@ -1,5 +1,6 @@
 """Writing a case as TOML, every default explicit, so that it can be run again as it stands."""
 
+import hashlib
 import re
 
 import tomli_w
@@ -24,6 +25,11 @@ def dump(case: Case) -> str:
         elif isinstance(value, list):
             blocks += [_table(f"[[{name}]]", item) for item in value]
     return "\n".join(blocks)
+
+
+def digest(case: Case) -> str:
+    """SHA-256 of that text: the same for equal cases, and for no others."""
+    return hashlib.sha256(dump(case).encode()).hexdigest()
 
 
 def _table(header: str, table: Table) -> str:

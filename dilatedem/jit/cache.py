@@ -3,8 +3,11 @@
 Imported before all else that knows Numba.
 """
 
+import atexit
 import hashlib
 import os
+import shutil
+import stat
 import tempfile
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -19,6 +22,8 @@ _PACKAGE = Path(__file__).parents[1]
 
 #: file in a folder of machine code that the process which writes there holds
 LOCK = "lock"
+#: whether files belong to users, and modes say who may write to them
+_HAS_OWNERS = os.name == "posix"
 
 
 def source_digest() -> str:
@@ -31,17 +36,53 @@ def source_digest() -> str:
 
 
 def _cache_folder() -> Path:
-    """A writable folder for compiled code: the user's cache, or a temporary folder where there is no usable home."""
+    """A folder for compiled code that nobody else can write to, for what lies there is run.
+
+    In the user's cache; where there is no usable home, in the temporary folder under the user's number; where somebody else was
+    there before, a fresh one, gone when the program ends.
+    """
     base = os.environ.get("XDG_CACHE_HOME") or os.path.join(os.path.expanduser("~"), ".cache")
-    for root in (Path(base), Path(tempfile.gettempdir())):
-        folder = root / "dilatedem" / source_digest()
+    user = os.getuid() if _HAS_OWNERS else ""
+    for place in (Path(base, "dilatedem"), Path(tempfile.gettempdir(), f"dilatedem-{user}")):
+        folder = place / source_digest()
         try:
-            folder.mkdir(parents=True, exist_ok=True)
-            if os.access(folder, os.W_OK):
-                return folder
+            place.parent.mkdir(parents=True, exist_ok=True)
+            _make_private(place)
+            if _is_private(place) and _is_beyond_others(place.parent):
+                _make_private(folder)
+                if _is_private(folder) and os.access(folder, os.W_OK):
+                    return folder
         except OSError:
             continue
-    return Path(tempfile.mkdtemp(prefix="dilatedem-"))
+    fresh = Path(tempfile.mkdtemp(prefix="dilatedem-"))
+    atexit.register(shutil.rmtree, fresh, ignore_errors=True)
+    return fresh
+
+
+def _make_private(folder: Path) -> None:
+    """Make a folder for its owner alone, and one that an earlier version made for more readers that, too."""
+    try:
+        folder.mkdir(mode=0o700)
+    except FileExistsError:
+        found = os.lstat(folder)
+        if folder.name == "dilatedem" and _is_own_folder(found) and found.st_mode & 0o022:
+            folder.chmod(0o700)
+
+
+def _is_private(folder: Path) -> bool:
+    """Whether it is a folder, no link to one, which belongs to this user and which no other may write to."""
+    found = os.lstat(folder)
+    return _is_own_folder(found) and not (_HAS_OWNERS and found.st_mode & 0o022)
+
+
+def _is_own_folder(found: os.stat_result) -> bool:
+    return stat.S_ISDIR(found.st_mode) and not (_HAS_OWNERS and found.st_uid != os.getuid())
+
+
+def _is_beyond_others(parent: Path) -> bool:
+    """Whether others can put no folder in the place of one that lies in here: they may not write, or not to what is not theirs."""
+    mode = os.stat(parent).st_mode
+    return not (_HAS_OWNERS and mode & 0o002) or bool(mode & stat.S_ISVTX)
 
 
 if "NUMBA_CACHE_DIR" not in os.environ:
@@ -97,12 +138,13 @@ def tend_cache(dispatcher) -> None:
         return
 
     def save_overload(*arguments):
-        with turn(Path(folder)):
+        with suppress(OSError), turn(Path(folder)):  # a full disk: the next run compiles again
             save(*arguments)
 
     def load_overload(*arguments):
-        with seldom_collected():
+        with suppress(OSError), seldom_collected():  # a disk that cannot be read: compiled again
             return load(*arguments)
+        return None
 
     cache.save_overload, cache.load_overload = save_overload, load_overload
     if (reduce := getattr(getattr(cache, "_impl", None), "reduce", None)) is not None:
@@ -116,5 +158,5 @@ def is_cached(dispatcher, *arguments) -> bool:
     try:
         cache = dispatcher._cache
         return cache._index_key(signature, dispatcher.targetctx.codegen()) in cache._cache_file._load_index()
-    except (AttributeError, TypeError):
+    except (AttributeError, TypeError, OSError):
         return False

@@ -16,8 +16,8 @@ import h5py
 import numpy as np
 
 from dilatedem import __version__
+from dilatedem.files.atomic import write_bytes
 from dilatedem.output import dimensions, folder
-from dilatedem.output.atomic import replacing
 from dilatedem.state.modes import MODE_NAMES
 
 CONVENTIONS = (
@@ -160,8 +160,7 @@ class RunArchive:
     def write(self, path) -> None:
         """Replace the file at `path`, atomically."""
         self._file.flush()
-        with replacing(path) as temporary:
-            temporary.write_bytes(self._file.id.get_file_image())
+        write_bytes(path, self._file.id.get_file_image())
 
     def close(self) -> None:
         """Give the memory back."""

@@ -1,6 +1,13 @@
-"""The run folder: the names of its files, and whether a folder already holds a run."""
+"""The run folder: the names of its files, whether a folder already holds a run, and what of it may be replaced."""
 
+import re
+from collections.abc import Iterator
 from pathlib import Path
+
+from dilatedem.errors import CaseError
+from dilatedem.files.atomic import TEMPORARY
+from dilatedem.files.lock import was_used
+from dilatedem.files.whose import is_marked, matching, refuse_foreign, refuse_links, refuse_other_kinds
 
 CASE = "case.toml"
 FORCES = "forces.csv"
@@ -13,8 +20,19 @@ RUN_ARCHIVE = "run.h5"
 CHECKPOINT = "restart.h5"
 STOPPED = "stopped.h5"
 SUMMARY = "summary.json"
+REPORT = "report.html"  # this one and the figures are made by `post`, and removed with the run that they show
+FIGURES = "figures"
 
 RUN_MARKS = (CASE, FORCES, CHECKPOINT, SUMMARY)  # any one of them, and the folder holds a run
+#: files that a run replaces and removes, case.toml last: as long as it is there, the folder holds a run that may be replaced
+FILES = (
+    CHECKPOINT, STOPPED, SUMMARY, RUN_ARCHIVE, FORCES, ENERGY, BODIES, ICE_COLLECTION, STRUCTURES, REPORT, CASE,
+)  # fmt: skip
+#: of what lies in folders, the same
+PARTS = {
+    SNAPSHOTS: re.compile(r"ice_\d{6,}\.vtu(\.tmp)?"),
+    FIGURES: re.compile(r"(field|plan|speed|energy|force_.+|peak_.+|load_.+)\.(png|svg)(\.tmp)?"),
+}
 
 
 def snapshot_name(number: int) -> str:
@@ -27,11 +45,40 @@ def holds_run(folder) -> bool:
     return any((Path(folder) / name).exists() for name in RUN_MARKS)
 
 
+def is_run(folder: Path) -> bool:
+    """Whether a run of this program made the folder: its case.toml says so, and what a run leaves lies beside it.
+
+    A case.toml that somebody copied from a run into a folder of his own is the beginning of his case, not a run.
+    """
+    beside = was_used(folder) or any((folder / name).is_file() for name in (CHECKPOINT, SUMMARY, FORCES))
+    return beside and is_marked(folder / CASE)
+
+
+def check(folder: Path, *, resume: bool = False, overwrite: bool = False) -> None:
+    """Raises CaseError unless a run may start, or go on, in this folder without harm to what is not its own."""
+    if resume and not (folder / CASE).exists():
+        raise CaseError(f"{folder}: holds no run to resume; leave --resume away to start one")
+    if is_run(folder) and not (resume or overwrite):
+        raise CaseError(f"{folder}: holds a run already; continue it with --resume, replace it with --overwrite, or choose --out")
+    refuse_links([*(folder / name for name in PARTS), *_own(folder)])
+    refuse_other_kinds((folder / name for name in FILES), (folder / name for name in PARTS))
+    if not (resume or is_run(folder)):
+        refuse_foreign(folder, (folder / name for name in (*FILES, *PARTS)), "run")
+
+
 def clear(folder: Path) -> None:
-    """Remove an earlier run's files from a folder that was given to be overwritten."""
-    names = (CASE, FORCES, ENERGY, BODIES, ICE_COLLECTION, STRUCTURES)
-    for name in (*names, RUN_ARCHIVE, CHECKPOINT, SUMMARY, STOPPED, "report.html"):
-        (folder / name).unlink(missing_ok=True)
-    for part in (SNAPSHOTS, "figures"):
-        for file in (folder / part).glob("*"):
-            file.unlink()
+    """Remove an earlier run's files from a folder that was given to be overwritten; `check` has been there before.
+
+    Its case.toml is left: it is replaced in one step, so that the folder holds a run whenever the program is killed.
+    """
+    for path in _own(folder):
+        if path != folder / CASE:
+            path.unlink(missing_ok=True)
+        path.with_name(path.name + TEMPORARY).unlink(missing_ok=True)
+
+
+def _own(folder: Path) -> Iterator[Path]:
+    """Every path at which a run or `post` may have put a file into this folder."""
+    yield from (folder / name for name in FILES)
+    for name, pattern in PARTS.items():
+        yield from matching(folder / name, pattern)

@@ -87,7 +87,7 @@ class TableObserver(Observer):
 
     def open(self, kept: dict | None, since: int) -> None:
         path = self.out / self.file
-        self.table = Table(path, self.columns) if kept is None else Table.reopen(path, self.columns, kept["offset"])
+        self.table = Table(path, self.columns) if kept is None else Table.reopen(path, self.columns, kept["offset"], kept["digest"])
 
     def put(self, append: Callable[[Table], None] | None) -> None:
         """Have rows appended, then the table handed to the system, in the background."""
@@ -100,7 +100,7 @@ class TableObserver(Observer):
 
     def settle(self) -> dict:
         self.table.flush(durable=True)
-        return {"offset": self.table.offset}
+        return {"offset": self.table.offset, "digest": self.table.digest}
 
     def close(self) -> None:
         self.table.close()

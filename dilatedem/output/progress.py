@@ -42,14 +42,14 @@ class Progress:
 
     def __enter__(self) -> "Progress":
         if not self._quiet and self._stream.isatty():
-            self._bar = _Bar(self._stream, self._duration_s)
+            self._tell(self._draw_bar)
         return self
 
     def __exit__(self, *exception) -> None:
         if self._latest is not None and not self._quiet:
             self._show(self._clock())
         if self._bar is not None:
-            self._bar.stop()
+            self._tell(self._bar.stop)
 
     def update(self, time_s: float, steps: int, contacts: Callable[[], int]) -> None:
         """Tell how far the run is: simulated time [s], steps so far, how to count the contacts of now.
@@ -75,10 +75,7 @@ class Progress:
         """Print a line of its own, above the bar if there is one."""
         if self._quiet:
             return
-        if self._bar is not None:
-            self._bar.message(text)
-        else:
-            print(text, file=self._stream, flush=True)
+        self._tell(self._bar.message if self._bar is not None else self._line, text)
 
     def _show(self, now: float) -> None:
         self._shown_at = now
@@ -92,9 +89,22 @@ class Progress:
         reached = f"{time_s:.2f} of {self._duration_s:g} s"
         figures = f"{reached}, {left}, {step_rate:,.0f} steps/s, {contacts()} contacts"
         if self._bar is not None:
-            self._bar.draw(time_s, figures)
+            self._tell(self._bar.draw, time_s, figures)
         else:
-            print(figures, file=self._stream, flush=True)
+            self._tell(self._line, figures)
+
+    def _tell(self, call: Callable, *arguments) -> None:
+        """Show something. A terminal that was closed or a pipe that nobody reads is no fault of the run: it goes on in silence."""
+        try:
+            call(*arguments)
+        except OSError:
+            self._quiet, self._bar = True, None
+
+    def _draw_bar(self) -> None:
+        self._bar = _Bar(self._stream, self._duration_s)
+
+    def _line(self, text: str) -> None:
+        print(text, file=self._stream, flush=True)
 
     def _rates(self, now: float) -> tuple[float, float]:
         """Simulated seconds and steps per second of wall time, over the samples kept."""

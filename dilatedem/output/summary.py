@@ -8,7 +8,7 @@ from importlib import metadata
 
 import numpy as np
 
-from dilatedem.output.atomic import write_text
+from dilatedem.files.atomic import write_text
 
 STATUSES = ("running", "completed", "interrupted", "stopped")
 RECORDED_LIBRARIES = ("numpy", "numba", "llvmlite", "scipy", "shapely", "h5py", "meshio", "pydantic")

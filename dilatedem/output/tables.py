@@ -2,14 +2,17 @@
 
 import csv
 import functools
+import hashlib
 import io
 import os
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 
 import numpy as np
 
 from dilatedem.errors import CaseError
+from dilatedem.files.atomic import open_file, write_whole
 
 FORCES_COLUMNS = (
     "time_s", "structure", "fx_N", "fy_N", "fz_N", "mx_Nm", "my_Nm", "mz_Nm",
@@ -31,42 +34,31 @@ class Table:
     """An append-only CSV file with a header row.
 
     Rows are kept in memory and handed to the system whole, at `flush` or when the buffer is full, so that a
-    kill leaves no half row behind. `offset` counts the bytes of all rows appended so far: a checkpoint calls
-    `flush`, then stores `offset`, and `Table.reopen` cuts off whatever was written after it.
+    kill leaves no half row behind. `offset` counts the bytes of all rows appended so far, and `digest` is theirs: a checkpoint
+    calls `flush`, then stores both, and `Table.reopen` cuts off whatever was written after it.
     """
 
     def __init__(self, path, columns: Sequence[str]):
         """Start the table anew at `path` (an existing file is emptied: the caller has asked before)."""
         self._prepare(path, columns)
-        self._file = open(self.path, "wb", buffering=0)
+        self._open(os.O_WRONLY | os.O_CREAT | os.O_TRUNC)
         self._write(self._header)
 
     @classmethod
-    def reopen(cls, path, columns: Sequence[str], offset: int) -> "Table":
-        """Go on with the table at `path` from byte `offset`.
+    def reopen(cls, path, columns: Sequence[str], offset: int, digest: str) -> "Table":
+        """Go on with the table at `path` from byte `offset`, up to where its digest is `digest`.
 
-        Raises CaseError if the file is not the one the checkpoint knew (missing, cut short, another header).
+        Raises CaseError if the file is not the one the checkpoint knew (missing, cut short, another header, other bytes).
         """
         table = cls.__new__(cls)
         table._prepare(path, columns)
-        header = table._header
-        if not table.path.is_file():
-            raise CaseError(f"{table.path}: is missing, so the run cannot be continued")
+        table._digest = verified(table.path, offset, digest)
         with open(table.path, "rb") as existing:
-            found = existing.read(len(header))
-            existing.seek(max(0, offset - 1))
-            last = existing.read(1)
-        size = table.path.stat().st_size
-        if found != header:
-            raise CaseError(f"{table.path}: its header is not this version's, so it cannot be continued")
-        if size < offset or offset < len(header) or last != b"\n":
-            raise CaseError(
-                f"{table.path}: holds {size} bytes, but the checkpoint was taken after {offset} whole ones: "
-                "the file was changed since"
-            )
-        table._file = open(table.path, "r+b", buffering=0)
-        table._file.truncate(offset)
-        table._file.seek(offset)
+            if existing.read(len(table._header)) != table._header:
+                raise CaseError(f"{table.path}: its header is not this version's, so it cannot be continued")
+        table._open(os.O_WRONLY)
+        os.ftruncate(table._file, offset)
+        os.lseek(table._file, offset, os.SEEK_SET)
         table._offset = offset
         return table
 
@@ -79,12 +71,21 @@ class Table:
         self._pending: list[bytes] = []
         self._pending_bytes = 0
         self._offset = 0
+        self._digest = hashlib.sha256()
         self._durable = 0  # bytes that are known to be on the disk
+
+    def _open(self, flags: int) -> None:
+        self._file: int | None = open_file(self.path, flags)
 
     @property
     def offset(self) -> int:
         """Bytes of the header and of all rows appended so far, flushed or not."""
         return self._offset
+
+    @property
+    def digest(self) -> str:
+        """SHA-256 of the first `offset` bytes."""
+        return self._digest.hexdigest()
 
     def append(self, rows: Iterable[Sequence]) -> None:
         """Add rows, one entry a column each; an array (rows, columns) will do where no column is text."""
@@ -108,19 +109,31 @@ class Table:
 
     def flush(self, *, durable: bool = False) -> None:
         """Hand all rows to the system; `durable`: wait until they are on the disk (before a checkpoint)."""
-        if self._pending:
-            _write_whole(self._file, b"".join(self._pending))
-            self._pending.clear()
-            self._pending_bytes = 0
-        if durable and self._offset > self._durable:
-            os.fsync(self._file.fileno())
-            self._durable = self._offset
+        pending, self._pending, self._pending_bytes = self._pending, [], 0
+        with self._named_faults():
+            if pending:  # given away before: after a fault nobody knows how much of it the file has, so it is not written again
+                write_whole(self._file, b"".join(pending))
+            if durable and self._offset > self._durable:
+                os.fsync(self._file)
+                self._durable = self._offset
 
     def close(self) -> None:
         """Flush and close; closing twice does no harm."""
-        if not self._file.closed:
-            self.flush()
-            self._file.close()
+        if self._file is not None:
+            try:
+                self.flush()
+            finally:
+                descriptor, self._file = self._file, None
+                with self._named_faults():
+                    os.close(descriptor)
+
+    @contextmanager
+    def _named_faults(self) -> Iterator[None]:
+        """A descriptor has no name for a fault to tell."""
+        try:
+            yield
+        except OSError as fault:
+            raise OSError(fault.errno, os.strerror(fault.errno or 0), str(self.path)) from fault
 
     def __enter__(self) -> "Table":
         return self
@@ -132,6 +145,7 @@ class Table:
         self._pending.append(data)
         self._pending_bytes += len(data)
         self._offset += len(data)
+        self._digest.update(data)
         if self._pending_bytes >= BUFFER_BYTES:
             self.flush()
 
@@ -156,8 +170,19 @@ def _quoted_text(text: str) -> str:
     return field.getvalue()
 
 
-def _write_whole(file, data: bytes) -> None:
-    # An unbuffered write may take only a part of the data (a signal, a nearly full disk).
-    view = memoryview(data)
-    while view:
-        view = view[file.write(view) :]
+def verified(path: Path, offset: int, digest: str):
+    """The hash of the first `offset` bytes of a table, to be gone on with.
+
+    Raises CaseError if the file is missing, shorter, or holds other bytes than those that a checkpoint noted.
+    """
+    if not path.is_file():
+        raise CaseError(f"{path}: is missing, so the run cannot be continued")
+    found, left = hashlib.sha256(), offset
+    with open(path, "rb") as existing:
+        while left > 0 and (part := existing.read(min(left, BUFFER_BYTES))):
+            found.update(part)
+            left -= len(part)
+    if left > 0 or found.hexdigest() != digest:
+        short = f"holds {offset - left} bytes of the {offset}" if left > 0 else f"its first {offset} bytes are not those"
+        raise CaseError(f"{path}: {short} that the checkpoint was taken after: the file was changed since")
+    return found

@@ -14,12 +14,12 @@ from html import escape  # that of xml.sax loads half of the web with it
 
 import numpy as np
 
+from dilatedem.files.atomic import write_bytes, write_text
 from dilatedem.geometry.packing import PackedPolyhedra, pack_polyhedra, selected
 from dilatedem.geometry.polyhedron import Polyhedron
 from dilatedem.geometry.shapes import Hulls
 from dilatedem.numerics.frames import matrix_from_quaternion
 from dilatedem.numerics.plain import turned
-from dilatedem.output.atomic import replacing, write_text
 
 # Cell data of every snapshot: name -> (type, components).
 CELL_DATA = {
@@ -91,8 +91,7 @@ class SnapshotWriter:
             *(_data_array(name, array[self._order]) for name, array in cell_data.items()),
             b"</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n",
         ]
-        with replacing(path) as temporary:
-            temporary.write_bytes(b"".join(parts))
+        write_bytes(path, b"".join(parts))
 
 
 def write_shapes(path, outers: Sequence[Polyhedron], position, orientation, cell_data: dict, order=None) -> None:

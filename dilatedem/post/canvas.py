@@ -13,6 +13,8 @@ import matplotlib
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
+from dilatedem.files.atomic import write_bytes, write_text
+
 # Okabe & Ito's colours, told apart by colour-blind readers.
 BLACK, ORANGE, SKY, GREEN = "#000000", "#E69F00", "#56B4E9", "#009E73"
 BLUE, VERMILION, PURPLE = "#0072B2", "#D55E00", "#CC79A7"
@@ -87,12 +89,14 @@ def save(drawing: Drawing, folder: Path) -> tuple[list[Path], str]:
         # The salt also keeps the identifiers of two figures on one page apart.
         matplotlib.rcParams.update(STYLE | {"svg.hashsalt": f"dilatedem {drawing.name}"})
         tight = {"bbox_inches": "tight", "pad_inches": 0.06}
-        drawing.figure.savefig(png, dpi=PNG_DPI, metadata={"Software": None}, **tight)
+        image = io.BytesIO()
+        drawing.figure.savefig(image, format="png", dpi=PNG_DPI, metadata={"Software": None}, **tight)
+        write_bytes(png, image.getvalue())
         buffer = io.StringIO()
         metadata = {"Date": None, "Creator": None, "Title": drawing.title}
         drawing.figure.savefig(buffer, format="svg", dpi=PNG_DPI, metadata=metadata, **tight)
     text = buffer.getvalue()
-    svg.write_text(text, encoding="utf-8")
+    write_text(svg, text)
     return [png, svg], inline_svg(text)
 
 

@@ -9,7 +9,9 @@ from typing import Any
 
 import numpy as np
 
-from dilatedem.errors import CaseError
+from dilatedem.errors import CaseError, SimulationStopped
+from dilatedem.files.atomic import write_text
+from dilatedem.files.faults import told_as
 from dilatedem.post import canvas, report
 from dilatedem.post.canvas import Drawing
 from dilatedem.post.figures_energy import energy_figure, residual_share
@@ -17,6 +19,7 @@ from dilatedem.post.figures_field import field_figure, plan_figure, speed_figure
 from dilatedem.post.figures_loads import force_figure, peak_figure
 from dilatedem.post.figures_map import load_around_figure, load_map_figure
 from dilatedem.post.figures_sweep import sweep_figure
+from dilatedem.post.harm import COMPARISON_TABLE, refuse_harm, refuse_harm_beside
 from dilatedem.post.loads import angular_statistics, hit_statistics, hit_threshold, load_statistics
 from dilatedem.post.read import RunFolder, open_run
 from dilatedem.post.snapshots import snapshots_at
@@ -26,7 +29,6 @@ from dilatedem.results.files import is_run, is_sweep, read_summary
 from dilatedem.results.snapshots import Snapshot
 from dilatedem.results.tables import Table, row_count
 
-COMPARISON_TABLE = "comparison.csv"
 MOMENTS = (0.0, 0.5, 1.0)  # of the run's time that the plan views show, as in Liu 2015, Fig. 10
 
 
@@ -34,9 +36,19 @@ def post_folders(folders: list[Path]) -> list[Path]:
     """See dilatedem.post.post. Every folder is checked before anything is written."""
     # `dilatedem post runs/*` meets the comparison that it wrote the last time.
     folders = [folder for folder in dict.fromkeys(folders) if not (folder / COMPARISON_TABLE).is_file()]
-    for folder in folders:
-        if not (is_run(folder) or is_sweep(folder)):
-            raise CaseError(f"{folder}: neither a run (case.toml) nor a sweep (sweep.csv) is in this folder")
+    runs = [folder for folder in folders if is_run(folder) and not is_sweep(folder)]
+    beside = common_folder(runs) / "comparison" if len(runs) > 1 else None
+    with told_as(CaseError):
+        for folder in folders:
+            refuse_harm(folder)
+        if beside:
+            refuse_harm_beside(beside)
+    with told_as(SimulationStopped):
+        return _post_all(folders, beside)
+
+
+def _post_all(folders: list[Path], beside: Path | None) -> list[Path]:
+    """beside: the folder of a comparison, None for none"""
     written: list[Path] = []
     runs: list[RunFolder] = []
     for folder in folders:
@@ -46,8 +58,7 @@ def post_folders(folders: list[Path]) -> list[Path]:
             run = open_run(folder)
             written += post_run(run)
             runs.append(run)
-    if len(runs) > 1:
-        beside = common_folder([run.path for run in runs]) / "comparison"
+    if beside:
         beside.mkdir(exist_ok=True)
         sweep = compare_runs(runs, beside)
         write_table(sweep, beside / COMPARISON_TABLE)
@@ -151,8 +162,5 @@ def merge_summary(path: Path, statistics: dict[str, Any]) -> bool:
     if not summary and path.exists():
         return False
     summary["post"] = statistics
-    text = json.dumps(summary, indent=2, ensure_ascii=False) + "\n"
-    partial = path.with_name(path.name + ".partial")
-    partial.write_text(text, encoding="utf-8")
-    os.replace(partial, path)
+    write_text(path, json.dumps(summary, indent=2, ensure_ascii=False) + "\n")
     return True

@@ -9,6 +9,7 @@ from typing import Any
 import jinja2
 import numpy as np
 
+from dilatedem.files.atomic import write_text
 from dilatedem.post.canvas import Drawing
 from dilatedem.post.figures_sweep import group_runs
 from dilatedem.post.labels import axis_label, describe_key, flatten, number, show
@@ -94,7 +95,7 @@ def render(template: str, path: Path, **content: Any) -> Path:
         loader=jinja2.PackageLoader("dilatedem.post"), autoescape=True, trim_blocks=True, lstrip_blocks=True,
         undefined=jinja2.StrictUndefined,
     )  # fmt: skip
-    path.write_text(environment.get_template(template).render(**content), encoding="utf-8")
+    write_text(path, environment.get_template(template).render(**content))
     return path
 
 

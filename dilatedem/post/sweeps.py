@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import io
 import math
 import os
 import re
@@ -11,6 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from dilatedem.files.atomic import write_text
 from dilatedem.post.labels import flatten, show
 from dilatedem.post.loads import load_statistics
 from dilatedem.post.read import RunFolder, open_run
@@ -144,15 +146,16 @@ def write_table(sweep: Sweep, path: Path) -> None:
     columns = [(name, quantity) for name in sweep.structures for quantity in quantities]
     header = [*sweep.keys, "seed", "run", "status"]
     header += [f"{name}_{quantity}_N" for name, quantity in columns] + ["residual_over_work", "message"]
-    with open(path, "w", encoding="utf-8", newline="") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(header)
-        for run in sweep.runs:
-            loads = [run.loads.get(name, {}).get(quantity, "") for name, quantity in columns]
-            values = ["" if run.values[key] is None else run.values[key] for key in sweep.keys]
-            folder = relative(run.folder, sweep.folder)
-            residual = run.residual_over_work if math.isfinite(run.residual_over_work) else ""
-            writer.writerow([*values, run.seed, folder, run.status, *loads, residual, run.message])
+    text = io.StringIO(newline="")
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(header)
+    for run in sweep.runs:
+        loads = [run.loads.get(name, {}).get(quantity, "") for name, quantity in columns]
+        values = ["" if run.values[key] is None else run.values[key] for key in sweep.keys]
+        folder = relative(run.folder, sweep.folder)
+        residual = run.residual_over_work if math.isfinite(run.residual_over_work) else ""
+        writer.writerow([*values, run.seed, folder, run.status, *loads, residual, run.message])
+    write_text(path, text.getvalue())
 
 
 def relative(path: Path, start: Path) -> str:

@@ -7,9 +7,12 @@ from pathlib import Path
 from dilatedem.case.load import case_from
 from dilatedem.case.schema import Case
 from dilatedem.errors import CaseError, Interrupted, SimulationStopped
+from dilatedem.files.faults import FULL, told_as
+from dilatedem.files.lock import Lock
 from dilatedem.jit import start_threads
 from dilatedem.output import folder
 from dilatedem.output.progress import Progress
+from dilatedem.results.files import read_summary
 from dilatedem.results.run import Run
 from dilatedem.run.faults import fault
 from dilatedem.run.interruption import Interruption
@@ -29,26 +32,50 @@ def run(case: Case, out: Path, *, threads: int = 1, resume: bool = False, overwr
     Raises CaseError (nothing written), SimulationStopped or Interrupted (state saved).
     """
     out = Path(out)
-    if folder.holds_run(out) and not (resume or overwrite):
-        raise CaseError(f"{out}: holds a run already; continue it with --resume, replace it with --overwrite, or choose --out")
-    if resume and not folder.holds_run(out):
-        raise CaseError(f"{out}: holds no run to resume; leave --resume away to start one")
-    try:
-        layer = start_threads(threads)
-    except ValueError as fault:
-        raise CaseError(f"--{fault}") from fault
-    simulation = Simulation.of_case(case, threads=threads)
-    saved = load_checkpoint(out, case, simulation) if resume else None
+    with told_as(CaseError):
+        folder.check(out, resume=resume, overwrite=overwrite)
+        try:
+            layer = start_threads(threads)
+        except ValueError as fault:
+            raise CaseError(f"--{fault}") from fault
+        simulation = Simulation.of_case(case, threads=threads)
+        with Lock(out) as lock:
+            folder.check(out, resume=resume, overwrite=overwrite)  # again: another run may have ended here in between
+            saved = load_checkpoint(out, case, simulation) if resume else None
+            if not (saved and _is_complete(out, simulation)):
+                _simulate(simulation, out, lock, saved, layer, quiet)
+    return out
+
+
+def _is_complete(out: Path, simulation: Simulation) -> bool:
+    """Whether nothing is left to do: the state is that of the end, and the summary says that all that follows was done."""
+    steps = total_steps(simulation.case, simulation.dt)
+    summary = read_summary(out / folder.SUMMARY)
+    return int(simulation.state.clock.step[0]) == steps == summary.get("steps") and summary.get("status") == "completed"
+
+
+def _simulate(simulation: Simulation, out: Path, lock: Lock, saved: dict | None, layer: str, quiet: bool) -> None:
+    """From t = 0, or from a checkpoint whose meta is `saved`, to the end. From now on files are written."""
+    case = simulation.case
     steps = total_steps(case, simulation.dt)
     with Progress(case.time.duration, quiet) as progress:
         progress.message(_headline(simulation, steps, layer))
         compile_s = _compile(simulation, progress)
-        with Interruption() as interruption, RunFolder(simulation, out, saved, compile_s=compile_s) as files:
-            if not saved:
-                _stop_on_fault(simulation, files, simulation.evaluate())
-                files.observe()
-            _loop(simulation, files, steps, progress, interruption)
-    return out
+        with Interruption() as interruption, told_as(SimulationStopped, lambda error: _way_on(out, error)):
+            lock.keep()
+            with RunFolder(simulation, out, saved, compile_s=compile_s) as files:
+                if not saved:
+                    _stop_on_fault(simulation, files, simulation.evaluate())
+                    files.observe()
+                _loop(simulation, files, steps, progress, interruption)
+
+
+def _way_on(out: Path, error: OSError) -> str:
+    """What to do after a fault of the disk."""
+    room = "make room and " if error.errno in FULL else ""
+    if (out / folder.CHECKPOINT).exists():
+        return f"; {room}go on with --resume, from the state saved last"
+    return f"; {room}start anew with --overwrite: no state was saved yet"
 
 
 def run_case(

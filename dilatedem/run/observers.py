@@ -9,8 +9,8 @@ from dilatedem import __version__
 from dilatedem.case import write
 from dilatedem.case.schema import Case
 from dilatedem.errors import Interrupted
+from dilatedem.files.atomic import write_text
 from dilatedem.output import checkpoint, folder
-from dilatedem.output.atomic import write_text
 from dilatedem.output.background import Background
 from dilatedem.output.energies import Energies
 from dilatedem.output.forces import Forces
@@ -63,6 +63,7 @@ class RunFolder:
         Of an earlier run nothing is left where it starts. compile_s: time [s] that was spent on the kernels before.
         """
         self._simulation, self._out = simulation, Path(out)
+        self._digest = write.digest(simulation.case)
         self._began, self._checked = time.perf_counter(), {}
         kept = saved["observers"] if saved else {}
         self._wall_s, self._compile_s = (saved["wall_s"], saved["compile_s"]) if saved else (0.0, 0.0)
@@ -80,8 +81,8 @@ class RunFolder:
             self._write_summary("running", "")
 
     def _start_folder(self) -> None:
-        folder.clear(self._out)
         self._out.mkdir(parents=True, exist_ok=True)
+        folder.clear(self._out)
         case, scene = self._simulation.case, self._simulation.scene
         header = f"# dilatedem {__version__}, seed {case.field.seed}\n\n"
         write_text(self._out / folder.CASE, header + write.dump(case))
@@ -91,11 +92,16 @@ class RunFolder:
     def __enter__(self) -> "RunFolder":
         return self
 
-    def __exit__(self, *exception) -> None:
-        self._refresh()
-        self._background.close()
-        for observer in self._observers:
-            observer.close()
+    def __exit__(self, kind, *exception) -> None:
+        """Bring all files up to this moment and close them; after a fault as far as the disk lets it: the fault is what is told."""
+        faults: list[OSError] = []
+        for call in (self._refresh, self._background.close, *(observer.close for observer in self._observers)):
+            try:
+                call()
+            except OSError as fault:
+                faults.append(fault)
+        if faults and kind is None:
+            raise faults[0]
 
     @property
     def next_due(self) -> int:
@@ -181,7 +187,8 @@ class RunFolder:
     def _put_checkpoint(self, file: str) -> None:
         """Have the state of this moment saved."""
         watch = self._simulation.state.watch
-        meta = {"version": __version__, "dt": self._simulation.dt, "wall_s": self._wall_s, "compile_s": self._compile_s}
+        meta = {"version": __version__, "case": self._digest, "dt": self._simulation.dt}
+        meta |= {"wall_s": self._wall_s, "compile_s": self._compile_s}
         meta |= {"watch": watch.figures()} if watch else {}
         kept = {observer.name: observer.kept() for observer in self._observers}
         groups = self._simulation.state.copies() | self._simulation.remodelled_groups()

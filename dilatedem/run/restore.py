@@ -9,6 +9,8 @@ from dilatedem.case import write
 from dilatedem.case.schema import Case
 from dilatedem.errors import CaseError
 from dilatedem.output import checkpoint, folder
+from dilatedem.output.tables import verified
+from dilatedem.run.observers import OBSERVERS
 from dilatedem.run.simulation import REMODELLED, Simulation
 from dilatedem.state.pairs import unpacked
 
@@ -23,18 +25,25 @@ def restored(case: Case, out: Path) -> Simulation:
 def load_checkpoint(out: Path, case: Case, simulation: Simulation) -> dict:
     """Restore the state saved in the run folder `out` into `simulation`; returns the checkpoint's meta.
 
-    Raises CaseError where there is none, or where it belongs to another case, version or step.
+    Raises CaseError where there is none, where it is damaged or belongs to another case, version or step, or where the tables are
+    not those that it was taken after.
     """
     kept, file = out / folder.CASE, out / folder.CHECKPOINT
-    text = kept.read_text(encoding="utf-8") if kept.exists() else ""
+    text = kept.read_text(encoding="utf-8", errors="replace") if kept.exists() else ""
     if text.partition("\n\n")[2] != write.dump(case):
         raise CaseError(f"{kept}: is not the case given; resume with the case that the run was started with")
     groups, meta = checkpoint.load(file)
+    if meta["case"] != write.digest(case):
+        raise CaseError(f"{file}: belongs to another case than {kept}; start anew with --overwrite")
     if meta["version"] != __version__:
         raise CaseError(f"{file}: was written by dilatedem {meta['version']}; resume with that version")
     if meta["dt"] != simulation.dt:
         steps = f"{meta['dt']:g} s, this program takes {simulation.dt:g} s"
         raise CaseError(f"{file}: has steps of {steps}; run anew with --overwrite")
+    for kind in OBSERVERS:
+        table = meta["observers"].get(kind.name, {})
+        if "digest" in table:
+            verified(out / kind.file, table["offset"], table["digest"])
     state, model, room = simulation.state, simulation.model, len(simulation.state.pairs.a)
     for name, current in state.groups().items():
         setattr(state, name, checkpoint.restore(type(current), groups[name], where=str(file)))

@@ -56,7 +56,7 @@ def write_run(
     """A whole run folder. scale: factor on the forces, to tell runs apart."""
     folder.mkdir(parents=True)
     case = case_of(structures, current, duration, seed, floe_size)
-    (folder / "case.toml").write_text(tomli_w.dumps(case))
+    (folder / "case.toml").write_text(f"# dilatedem 0.1.0, seed {seed}\n\n{tomli_w.dumps(case)}")
     random = np.random.default_rng(seed)
     outlines = floes(random, floe_size)
     (folder / "forces.csv").write_text(FORCES + "".join(force_rows(structures, duration, random, scale)))

@@ -198,3 +198,15 @@ def test_times_are_readable():
 def test_pipe_as_standard_input(simulation, monkeypatch):
     monkeypatch.setattr("sys.stdin", io.StringIO(""))
     assert invoke("check", "-", stdin="").exit_code == 0
+
+
+def test_ctrl_c_while_the_program_loads_prints_no_traceback():
+    code = (
+        "import sys\nfrom dilatedem.__main__ import main\n"
+        "class Pressed:\n"
+        "    def find_spec(self, name, *more):\n"
+        "        if name == 'typer':\n            raise KeyboardInterrupt\n"
+        "sys.meta_path.insert(0, Pressed())\nmain()"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stdout, done.stderr) == (130, "", "")

@@ -130,3 +130,26 @@ def test_an_impossible_field_is_one_sentence_and_writes_nothing(tmp_path):
     with pytest.raises(CaseError, match="ice field cannot be built: .*dilated radius"):
         generate(load(path), tmp_path / "out")
     assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize("name", ["field.vtu", "field.png", "field.json", "field.vtu.tmp"])
+def test_a_file_that_is_no_field_is_left_alone(name, tmp_path):
+    path, out = tmp_path / "small.toml", tmp_path / "out"
+    path.write_text("[domain]\nsize = [6.0, 6.0]\n[field]\nfloe_count = 4\n")
+    out.mkdir()
+    (out / name).write_text('{"mine": 1}')
+    with pytest.raises(CaseError, match=f"{name}: stands in the way: .* holds no field"):
+        generate(load(path), out)
+    assert [(file.name, file.read_text()) for file in out.iterdir()] == [(name, '{"mine": 1}')]
+
+
+def test_a_field_is_not_written_through_links(tmp_path):
+    path, out = tmp_path / "small.toml", tmp_path / "out"
+    path.write_text("[domain]\nsize = [6.0, 6.0]\n[field]\nfloe_count = 4\n")
+    generate(load(path), out)
+    (out / "field.png").unlink()
+    (out / "field.png").symlink_to(path)
+    before = path.read_bytes()
+    with pytest.raises(CaseError, match="field.png: is a link"):
+        generate(load(path), out)
+    assert path.read_bytes() == before

@@ -202,3 +202,82 @@ def test_a_numba_with_another_cache_inside_is_left_as_it_is():
 def test_the_digest_is_of_the_whole_program():
     """Any source may be part of a kernel, not those of the decorators alone."""
     assert cache._PACKAGE == Path(dilatedem.__file__).parent
+
+
+SHOW = (
+    "import os, sys, tempfile\ntempfile.tempdir = sys.argv[1]\n"
+    "from dilatedem.jit import cache\nprint(os.environ['NUMBA_CACHE_DIR'])"
+)
+
+
+def chosen_folder(temporary: Path, home: str = "/dev/null") -> Path:
+    """Where a new process keeps machine code; without a usable home unless one is given."""
+    left_out = ("NUMBA_CACHE_DIR", "XDG_CACHE_HOME")
+    told = {name: value for name, value in os.environ.items() if name not in left_out} | {"HOME": home}
+    command = [sys.executable, "-c", SHOW, str(temporary)]
+    return Path(subprocess.run(command, env=told, capture_output=True, text=True, check=True).stdout.strip())
+
+
+def test_without_a_home_machine_code_lies_in_a_folder_of_this_user_alone(tmp_path):
+    tmp_path.chmod(0o1777)
+    folder = chosen_folder(tmp_path)
+    assert folder == tmp_path / f"dilatedem-{os.getuid()}" / cache.source_digest()
+    assert [path.stat().st_mode & 0o777 for path in (folder, folder.parent)] == [0o700, 0o700]
+    assert chosen_folder(tmp_path) == folder
+
+
+@pytest.mark.parametrize("trap", ["open to all", "link", "code open to all", "link to code", "file", "shared without sticky bit"])
+def test_a_folder_that_anybody_may_have_made_is_not_used(trap, tmp_path):
+    temporary, elsewhere = tmp_path / "tmp", tmp_path / "elsewhere"
+    place = temporary / f"dilatedem-{os.getuid()}"
+    for folder in (temporary, elsewhere):
+        folder.mkdir()
+    temporary.chmod(0o777 if trap == "shared without sticky bit" else 0o1777)
+    elsewhere.chmod(0o700)
+    code = place / cache.source_digest()
+    if trap == "open to all":
+        place.mkdir()
+        place.chmod(0o777)
+    elif trap == "link":
+        place.symlink_to(elsewhere)
+    elif trap == "code open to all":
+        place.mkdir(mode=0o700)
+        code.mkdir()
+        code.chmod(0o777)
+    elif trap == "link to code":
+        place.mkdir(mode=0o700)
+        code.symlink_to(elsewhere)
+    elif trap == "file":
+        place.write_text("mine")
+    folder = chosen_folder(temporary)
+    assert place not in (folder, *folder.parents) and elsewhere not in (folder, *folder.parents)
+    assert not folder.exists()  # it was fresh, and went with its process
+    assert list(elsewhere.iterdir()) == []
+
+
+def test_a_folder_of_somebody_else_is_not_used(tmp_path, monkeypatch):
+    monkeypatch.setattr(cache.tempfile, "gettempdir", lambda: str(tmp_path))
+    monkeypatch.setattr(cache.tempfile, "mkdtemp", lambda prefix: str(tmp_path / "fresh"))
+    monkeypatch.setenv("XDG_CACHE_HOME", "/dev/null")
+    user = os.getuid()
+    (tmp_path / f"dilatedem-{user + 1}").mkdir(mode=0o700)  # of `user`, where `user + 1` looks for his own
+    monkeypatch.setattr(cache.os, "getuid", lambda: user + 1)
+    assert cache._cache_folder() == tmp_path / "fresh"
+
+
+def test_the_folder_in_the_users_cache_is_closed_to_others(tmp_path):
+    place = tmp_path / ".cache" / "dilatedem"
+    place.mkdir(parents=True)
+    place.chmod(0o775)  # as an earlier version made it for a user whose new files are his group's
+    folder = chosen_folder(tmp_path / "none", str(tmp_path))
+    assert folder == place / cache.source_digest()
+    assert place.stat().st_mode & 0o777 == 0o700 == folder.stat().st_mode & 0o777
+
+
+def test_a_disk_that_takes_no_machine_code_costs_the_next_run_its_time(monkeypatch, tmp_path):
+    def fail(*arguments):
+        raise OSError(28, "No space left on device")
+
+    kept = SimpleNamespace(save_overload=fail, load_overload=fail, cache_path=str(tmp_path / "code"))
+    tend_cache(SimpleNamespace(_cache=kept))
+    assert kept.save_overload(1, 2) is None and kept.load_overload(1, 2) is None

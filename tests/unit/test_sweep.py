@@ -16,6 +16,7 @@ import pytest
 from dilatedem import sweep as sweeps
 from dilatedem.case.load import load
 from dilatedem.errors import CaseError, SimulationStopped
+from dilatedem.files.lock import Lock
 from dilatedem.sweep import sweep
 
 PILE = Path(__file__).parents[2] / "cases" / "pile.toml"
@@ -62,7 +63,7 @@ def stand_in(job):
 @pytest.fixture
 def quick(monkeypatch):
     monkeypatch.setattr(sweeps, "_command", stand_in)
-    monkeypatch.setattr(sweeps, "_compile_once", lambda models: None)
+    monkeypatch.setattr(sweeps, "_compile_once", lambda models, line: None)
 
 
 def rows(out: Path) -> list[dict[str, str]]:
@@ -176,7 +177,7 @@ def test_an_interrupt_lets_the_running_cases_save_their_state(tmp_path, signal_n
     program = (
         "import sys\nsys.path.insert(0, sys.argv.pop(1))\n"
         "import test_sweep\nfrom dilatedem import cli, sweep\n"
-        "sweep._command, sweep._compile_once = test_sweep.stand_in, lambda models: None\ncli.main()"
+        "sweep._command, sweep._compile_once = test_sweep.stand_in, lambda models, line: None\ncli.main()"
     )
     arguments = ["sweep", PILE, "--vary", "contact.friction=0.1,0.6", "--seeds", "2", "--jobs", "3"]
     arguments += ["--out", out]
@@ -196,3 +197,36 @@ def test_an_interrupt_lets_the_running_cases_save_their_state(tmp_path, signal_n
     assert "interrupted with 2 of 4 cases completed; --resume goes on" in said
     assert [row["status"] for row in rows(out)] == ["completed"] * 2 + ["interrupted"] * 2
     assert all((folder / "restart.h5").exists() for folder in sleeping)
+
+
+def test_what_no_sweep_wrote_is_left_alone(quick, tmp_path):
+    name = "contact.friction=0.1"
+    mine = {"sweep.csv": "mine", f"{name}.log": "mine", f"{name}/energy.csv": "mine"}
+    for place, resume in (("sweep.csv", True), ("sweep.csv", False), (f"{name}.log", False), (f"{name}/energy.csv", True)):
+        out = tmp_path / f"{place}-{resume}".replace("/", "_")
+        (out / place).parent.mkdir(parents=True)
+        (out / place).write_text(mine[place])
+        with pytest.raises(CaseError, match="stands in the way|holds a sweep already"):
+            sweep(PILE, vary=["contact.friction=0.1"], out=out, resume=resume)
+        assert [file.relative_to(out) for file in out.rglob("*") if file.is_file()] == [Path(place)]
+        assert (out / place).read_text() == "mine"
+
+
+def test_a_sweep_follows_no_links(quick, tmp_path):
+    out, elsewhere = tmp_path / "out", tmp_path / "elsewhere"
+    for folder in (out, elsewhere):
+        folder.mkdir()
+    (out / "contact.friction=0.1").symlink_to(elsewhere)
+    with pytest.raises(CaseError, match="is a link"):
+        sweep(PILE, vary=["contact.friction=0.1"], out=out, resume=True)
+    assert list(elsewhere.iterdir()) == []
+
+
+def test_a_case_that_still_runs_is_not_started_again(quick, tmp_path, monkeypatch):
+    monkeypatch.setattr(sweeps, "PATIENCE_S", 0.3)
+    sweep(PILE, vary=["contact.friction=0.1,0.2"], out=tmp_path)
+    with Lock(tmp_path / "contact.friction=0.2") as held:
+        held.keep()
+        with pytest.raises(CaseError, match="friction=0.2: another process is at work in it; .* --resume"):
+            sweep(PILE, vary=["contact.friction=0.1,0.2"], out=tmp_path, resume=True)
+    sweep(PILE, vary=["contact.friction=0.1,0.2"], out=tmp_path, resume=True)

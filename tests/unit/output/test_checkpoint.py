@@ -111,10 +111,10 @@ def test_faults_are_one_sentence(tmp_path):
     checkpoint.save(path, {"clock": state()[1]}, {})
     whole = path.read_bytes()
     path.write_bytes(whole[:-200])
-    with pytest.raises(CaseError, match="not a readable checkpoint"):
+    with pytest.raises(CaseError, match="is damaged"):
         checkpoint.load(path)
     path.write_bytes(b"")
-    with pytest.raises(CaseError, match="not a readable checkpoint"):
+    with pytest.raises(CaseError, match="is damaged"):
         checkpoint.load(path)
 
 
@@ -129,7 +129,10 @@ def test_a_file_of_another_format_is_refused_by_its_number(tmp_path):
         file.attrs["format"] = 1
         file.attrs["meta"] = "{}"
         file["clock/step"] = np.zeros(1)
-    with pytest.raises(CaseError, match="checkpoint format 1, but this version reads 3"):
+    with pytest.raises(CaseError, match="is damaged, or written by another version"):
+        checkpoint.load(path)
+    path.write_bytes(b"whatever it holds" + b"dilatedem checkpoint 5 sha256 " + 64 * b"0" + b"\n")
+    with pytest.raises(CaseError, match="checkpoint format 5, but this version reads 4"):
         checkpoint.load(path)
 
 
@@ -147,3 +150,34 @@ def test_a_large_state_is_written_in_parts(tmp_path, monkeypatch):
     for name in ("motion", "again"):
         for given, found in zip(motion, checkpoint.restore(Motion, groups[name]), strict=True):
             assert (found.dtype, found.shape, found.tobytes()) == (given.dtype, given.shape, given.tobytes())
+
+
+def test_no_damaged_file_is_read_as_a_checkpoint(tmp_path):
+    """Bits turned, ends cut off, blocks of zeros, bytes put in: 200 of them, none of which HDF5 ever sees."""
+    motion, clock = state()
+    path, random = tmp_path / "restart.h5", np.random.default_rng(7)
+    checkpoint.save(path, {"motion": motion, "clock": clock}, {"step": 3})
+    whole = path.read_bytes()
+    for number in range(200):
+        data, at = bytearray(whole), int(random.integers(len(whole)))
+        match number % 4:
+            case 0:
+                data[at] ^= 1 << int(random.integers(8))
+            case 1:
+                del data[at:]
+            case 2:
+                data[at : at + 64] = bytes(b ^ 0xFF for b in data[at : at + 64])
+            case 3:
+                data.insert(at, 0)
+        path.write_bytes(data)
+        with pytest.raises(CaseError, match="restart.h5: (is damaged|checkpoint format)"):
+            checkpoint.load(path)
+
+
+def test_a_full_disk_never_meets_hdf5(tmp_path, monkeypatch):
+    """The file is whole in memory before the first byte of it is written."""
+    opened = []
+    monkeypatch.setattr(checkpoint.h5py, "File", lambda name, *more, File=h5py.File: opened.append(name) or File(name, *more))
+    checkpoint.save(tmp_path / "restart.h5", {"clock": state()[1]}, {})
+    checkpoint.load(tmp_path / "restart.h5")
+    assert len(opened) == 2 and not any(isinstance(name, str) or hasattr(name, "__fspath__") for name in opened)

@@ -62,15 +62,15 @@ def test_resumed_table_equals_the_uninterrupted_one(tmp_path, rows_after_checkpo
     killed = Table(path, FORCES_COLUMNS)
     killed.append(FORCE_ROWS[:11])
     killed.flush(durable=True)
-    offset = killed.offset
+    offset, digest = killed.offset, killed.digest
     assert path.stat().st_size == offset
     killed.append(FORCE_ROWS[11 : 11 + rows_after_checkpoint])
     killed.flush()
     with open(path, "ab") as file:
         file.write(torn)  # what a full disk or a foreign kill could leave
 
-    with Table.reopen(path, FORCES_COLUMNS, offset) as resumed:
-        assert resumed.offset == offset
+    with Table.reopen(path, FORCES_COLUMNS, offset, digest) as resumed:
+        assert (resumed.offset, resumed.digest) == (offset, digest)
         resumed.append(FORCE_ROWS[11:])
     assert path.read_bytes() == (tmp_path / "whole.csv").read_bytes()
 
@@ -91,11 +91,14 @@ def test_a_file_changed_since_the_checkpoint_is_refused(tmp_path):
     path = tmp_path / "energy.csv"
     with Table(path, ENERGY_COLUMNS) as table:
         table.append([[1.0] * len(ENERGY_COLUMNS)] * 3)
+    with pytest.raises(CaseError, match=f"holds {table.offset} bytes of the {table.offset + 1} .* changed since"):
+        Table.reopen(path, ENERGY_COLUMNS, table.offset + 1, table.digest)
     with pytest.raises(CaseError, match="changed since"):
-        Table.reopen(path, ENERGY_COLUMNS, table.offset + 1)
-    with pytest.raises(CaseError, match="changed since"):
-        Table.reopen(path, ENERGY_COLUMNS, table.offset - 1)  # not the end of a row
+        Table.reopen(path, ENERGY_COLUMNS, table.offset - 1, table.digest)  # not the end of a row
     with pytest.raises(CaseError, match="header"):
-        Table.reopen(path, BODIES_COLUMNS, table.offset)
+        Table.reopen(path, BODIES_COLUMNS, table.offset, table.digest)
     with pytest.raises(CaseError, match="missing"):
-        Table.reopen(tmp_path / "none.csv", ENERGY_COLUMNS, 10)
+        Table.reopen(tmp_path / "none.csv", ENERGY_COLUMNS, 10, table.digest)
+    path.write_bytes(path.read_bytes().replace(b"1,1,1", b"1,2,1", 1))  # as long as before
+    with pytest.raises(CaseError, match="are not those that the checkpoint was taken after: the file was changed since"):
+        Table.reopen(path, ENERGY_COLUMNS, table.offset, table.digest)
