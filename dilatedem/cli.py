@@ -14,7 +14,7 @@ from typing import Annotated, Any
 import typer
 
 from dilatedem import __version__
-from dilatedem.errors import CaseError, Interrupted, SimulationStopped
+from dilatedem.errors import CaseError, Interrupted, SimulationStopped, printable
 from dilatedem.garbage import seldom_collected
 
 EXIT_WRONG = 2
@@ -135,7 +135,7 @@ def run(
 
     loop.run(loaded, folder, threads=threads, resume=resume, overwrite=overwrite, quiet=quiet)
     if not quiet:
-        print(_headline(folder))
+        _say(_headline(folder))
 
 
 @app.command()
@@ -153,7 +153,7 @@ def generate(case: CaseArgument, out: OutOption = None, overrides: SetOption = N
 
     folder = out or _default_out(case)
     _print_pairs(generate_field(load(case, overrides or ()), folder))
-    print(f"field.vtu, field.png and field.json are in {folder}")
+    _say(f"field.vtu, field.png and field.json are in {folder}")
 
 
 @app.command()
@@ -185,7 +185,7 @@ def post(runs: RunsArgument) -> None:
 
     for path in make_figures(list(runs)):
         if path.name == "report.html":
-            print(path)
+            _say(path)
 
 
 @app.command()
@@ -198,7 +198,7 @@ def info(run_dir: Annotated[Path, typer.Argument(metavar="RUN_DIR", help="Folder
     from dilatedem.post import info as describe
 
     _require_run(run_dir)
-    print(describe(run_dir))
+    _say(describe(run_dir))
 
 
 @app.command()
@@ -246,7 +246,7 @@ def sweep(
         case, vary=vary or (), seeds=seeds, jobs=jobs, scheduler=scheduler, out=folder, resume=resume,
         overrides=overrides or (),
     )
-    print(f"{table}: all cases completed; dilatedem post {folder} draws them")
+    _say(f"{table}: all cases completed; dilatedem post {folder} draws them")
 
 
 @app.command()
@@ -262,12 +262,29 @@ def schema() -> None:
 
 def main() -> None:
     """Entry point of the `dilatedem` command."""
+    for number, argument in enumerate(sys.argv[1:], start=1):
+        if fault := _unusable(argument):
+            print(f"argument {number}, {printable(argument[:60])}: {fault}", file=sys.stderr)
+            sys.exit(EXIT_WRONG)
     with seldom_collected():
         app()
 
 
+def _unusable(argument: str) -> str:
+    """Why no command can take an argument, empty where one may: names of files and values are text, and end up in files of text."""
+    if any("\ud800" <= character <= "\udfff" for character in argument):
+        return "is not UTF-8 text; rename the file or write the value in UTF-8"
+    if printable(argument, keep="\n\t") != argument:
+        return "holds a control character; leave it out"
+    return ""
+
+
+def _say(text: object) -> None:
+    print(printable(str(text), keep="\n"))
+
+
 def _end(message: str, code: int) -> None:
-    print(message, file=sys.stderr)
+    print(printable(message, keep="\n"), file=sys.stderr)
     raise typer.Exit(code) from None
 
 
@@ -306,7 +323,7 @@ def _print_pairs(pairs: Mapping[str, Any] | Iterable[tuple[str, Any]]) -> None:
     rows = list(_flat(dict(pairs)))
     width = max((len(label) for label, _ in rows), default=0)
     for label, value in rows:
-        print(f"{label:<{width}}  {f'{value:.6g}' if isinstance(value, float) else value}")
+        _say(f"{label:<{width}}  {f'{value:.6g}' if isinstance(value, float) else value}")
 
 
 def _flat(table: Mapping[str, Any], before: str = "") -> Iterable[tuple[str, Any]]:

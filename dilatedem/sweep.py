@@ -23,7 +23,7 @@ from typing import Any
 from dilatedem.case import grid, load, write
 from dilatedem.case.overrides import Override, parse
 from dilatedem.case.schema import Case
-from dilatedem.errors import CaseError, Interrupted, SimulationStopped
+from dilatedem.errors import CaseError, Interrupted, SimulationStopped, printable
 
 TABLE = "sweep.csv"
 
@@ -118,10 +118,11 @@ def plan(
     if faults:
         more = f"\n... and {len(faults) - MOST_FAULTS} more" if len(faults) > MOST_FAULTS else ""
         raise CaseError("\n".join(list(faults)[:MOST_FAULTS]) + more)
-    names = [job.folder.name for job in todo]
-    for i, name in enumerate(names):
-        if name in names[:i]:
-            raise CaseError(f"two cases would share the folder {name}; give their values in simpler words")
+    names: set[str] = set()
+    for job in todo:
+        if job.folder.name in names:
+            raise CaseError(f"two cases would share the folder {job.folder.name}; give their values in simpler words")
+        names.add(job.folder.name)
     return todo
 
 
@@ -316,4 +317,4 @@ def _cell(value: Any) -> str:
 
 
 def _say(text: str) -> None:
-    print(text, file=sys.stderr, flush=True)
+    print(printable(text, keep="\n"), file=sys.stderr, flush=True)
