@@ -38,6 +38,8 @@ def run(case: Case, out: Path, *, threads: int = 1, resume: bool = False, overwr
     except ValueError as fault:
         raise CaseError(f"--{fault}") from fault
     simulation = Simulation.of_case(case, threads=threads)
+    if not resume:
+        simulation.require_apart()
     saved = load_checkpoint(out, case, simulation) if resume else None
     steps = total_steps(case, simulation.dt)
     with Progress(case.time.duration, quiet) as progress:
