@@ -168,7 +168,10 @@ def check(case: CaseArgument, overrides: SetOption = None) -> None:
     loaded = load(case, overrides or ())
     from dilatedem.run import foretell  # after the case: a wrong key is answered without loading the kernels
 
-    _print_pairs(foretell.check(loaded))
+    facts = dict(foretell.check(loaded))
+    for sentence in facts.pop("warnings", ()):
+        print(printable(f"warning: {sentence}"), file=sys.stderr)
+    _print_pairs(facts)
 
 
 @app.command()
@@ -302,12 +305,15 @@ def _headline(folder: Path) -> str:
     import json
 
     summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
-    peaks = [
-        f"peak load on {name} {load['fh_max_N'] / 1e3:.1f} kN at {load['fh_max_time_s']:.2f} s"
-        for name, load in summary["loads"].items()
-    ]
+    peaks = [_peak_words(name, load) for name, load in summary["loads"].items()]
     start = f"{folder}: {summary['simulated_s']:g} s simulated in {_clock(summary['wall_s'])}"
     return "; ".join([start, *peaks])
+
+
+def _peak_words(name: str, load: Mapping[str, Any]) -> str:
+    if load["fh_max_N"] > 0.0:
+        return f"peak load on {name} {load['fh_max_N'] / 1e3:.1f} kN at {load['fh_max_time_s']:.2f} s"
+    return f"no horizontal load on {name}" if load.get("touched") else f"no ice touched {name}"
 
 
 def _clock(seconds: float) -> str:

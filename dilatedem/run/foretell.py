@@ -10,7 +10,10 @@ from dilatedem.scene.room import memory
 
 
 def check(case: Case) -> dict:
-    """Floes, mass, time step, steps, expected size of the output. Raises CaseError for what only building a case can tell."""
+    """Floes, mass, time step, steps, expected size of the output; `warnings`: what is hardly meant, a sentence each.
+
+    Raises CaseError for what only building a case can tell.
+    """
     simulation = Simulation.of_case(case)
     simulation.require_apart()
     scene, floating = simulation.scene, simulation.model.floating
@@ -30,4 +33,4 @@ def check(case: Case) -> dict:
     }
     if len(areas):
         facts |= {"concentration": scene.field.concentration, "floe size, m": float(np.sqrt(areas.mean()))}
-    return facts
+    return facts | {"warnings": simulation.advice()}

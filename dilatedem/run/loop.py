@@ -43,6 +43,8 @@ def run(case: Case, out: Path, *, threads: int = 1, resume: bool = False, overwr
     saved = load_checkpoint(out, case, simulation) if resume else None
     steps = total_steps(case, simulation.dt)
     with Progress(case.time.duration, quiet) as progress:
+        for sentence in [] if resume else simulation.advice():
+            progress.message(f"warning: {sentence}")
         progress.message(_headline(simulation, steps, layer))
         compile_s = _compile(simulation, progress)
         with Interruption() as interruption, RunFolder(simulation, out, saved, compile_s=compile_s) as files:

@@ -13,6 +13,7 @@ from dilatedem.events.kinds import events_of
 from dilatedem.geometry.shapes import Hulls, Shapes
 from dilatedem.jit import Alone, NoTimer, Team, Timer, is_cached, start_threads
 from dilatedem.motion.timestep import critical_step
+from dilatedem.run.advice import advice
 from dilatedem.run.error_check import Watch
 from dilatedem.run.faults import fault
 from dilatedem.run.pace import free_span, time_step
@@ -128,6 +129,10 @@ class Simulation:
         For a simulation at t = 0. In Python one may look into what the laws make of it all the same.
         """
         require_apart(self.scene, self.model, self.state.bodies)
+
+    def advice(self) -> list[str]:
+        """What of the case is hardly meant, a sentence each; for a simulation at t = 0."""
+        return advice(self.case, self.scene, self.model, self.state.bodies, share=self.dt / self.critical)
 
     def step(self, count: int = 1) -> None:
         """Go on by so many time steps of `dt`. Raises SimulationStopped where it cannot."""

@@ -28,7 +28,7 @@ def test_a_refusal_says_how_many_and_what_helps(points):
     with pytest.raises(CaseError) as caught:
         compose(case_from(round_floe(points), {}))
     message = str(caught.value)
-    assert message.startswith(f"body.0: a face has {points} corners, and at most 127 can be handled; leave some out, or have that done by ")
+    assert message.startswith(f"body.0: a face has {points} corners, and at most 127 can be handled; leave some out, or have ")
     tolerance = float(message.partition("outline_tolerance = ")[2].partition(" ")[0])
     left = corners(round_floe(points, outline_tolerance=tolerance))
     assert message.endswith(f"which leaves {left} of {points}")
