@@ -24,6 +24,7 @@ from dilatedem.case import grid, load, write
 from dilatedem.case.overrides import Override, parse
 from dilatedem.case.schema import Case
 from dilatedem.errors import CaseError, Interrupted, SimulationStopped, printable
+from dilatedem.results.files import read_summary
 
 TABLE = "sweep.csv"
 
@@ -274,10 +275,10 @@ def _outcome(code: int, said: str, stopped_by_us: bool) -> tuple[str, str]:
 
 
 def _summary(job: Job) -> dict[str, Any]:
-    """summary.json of a run, empty where there is none."""
+    """summary.json of a run, empty where there is none that can be read."""
     try:
-        return json.loads((job.folder / "summary.json").read_text(encoding="utf-8"))
-    except (OSError, ValueError):
+        return read_summary(job.folder / "summary.json")
+    except CaseError:  # damaged
         return {}
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import csv
 import math
 from pathlib import Path
@@ -34,20 +35,22 @@ def whole_lines(path: Path) -> str:
 
 
 def read_table(path: Path) -> Table:
-    """A CSV file by columns; no file gives no columns."""
+    """A CSV file by columns; no file gives no columns. Raises CaseError for a file that is no table at all."""
     if not path.is_file():
         return {}
     lines = whole_lines(path).splitlines()
     if not lines:
         return {}
     header, *rows = lines
-    names = next(csv.reader([header]))
     try:
-        return numbers_and_names(names, rows)
-    except ValueError:  # text or empty cells among the numbers, rows of other lengths
+        names = next(csv.reader([header]), [])
+        with contextlib.suppress(ValueError):  # text or empty cells among the numbers, rows of other lengths
+            return numbers_and_names(names, rows)
         cells = [row for row in csv.reader(rows) if len(row) == len(names)]
-        columns = zip(*cells, strict=True) if cells else [()] * len(names)
-        return {name: as_column(name, column) for name, column in zip(names, columns, strict=True)}
+    except csv.Error as error:
+        raise CaseError(f"{path}: no table that can be read: {error}") from error
+    columns = zip(*cells, strict=True) if cells else [()] * len(names)
+    return {name: as_column(name, column) for name, column in zip(names, columns, strict=True)}
 
 
 def numbers_and_names(names: list[str], rows: list[str]) -> Table:
