@@ -44,6 +44,8 @@ def read_table(path: Path) -> Table:
     header, *rows = lines
     try:
         names = next(csv.reader([header]), [])
+        if not names:
+            raise CaseError(f"{path}: no table that can be read: its first line is empty")
         with contextlib.suppress(ValueError):  # text or empty cells among the numbers, rows of other lengths
             return numbers_and_names(names, rows)
         cells = [row for row in csv.reader(rows) if len(row) == len(names)]
@@ -58,7 +60,7 @@ def numbers_and_names(names: list[str], rows: list[str]) -> Table:
 
     Raises ValueError for any other.
     """
-    if not rows:
+    if not any(rows):
         raise ValueError("no rows")
     text = [name for name in names if name in TEXT_COLUMNS]
     style = {"delimiter": ",", "quotechar": '"', "comments": None, "ndmin": 2}

@@ -164,8 +164,9 @@ def _load_all(folder: Path) -> int:
     """Everything that Python can ask of a folder; CaseError is the only way to fail."""
     code = 0
     asked: list[Callable] = [
-        lambda run: run.forces, lambda run: run.energy, lambda run: run.bodies, lambda run: run.floes, lambda run: run.contacts, repr,
-        lambda run: [run.load_map(name) for name in run.load_map_names], lambda run: run.snapshot(0.5), lambda run: run.summary,
+        repr, lambda run: run.forces, lambda run: run.energy, lambda run: run.bodies, lambda run: run.floes,
+        lambda run: run.contacts, lambda run: [run.load_map(name) for name in run.load_map_names], lambda run: run.snapshot(0.5),
+        lambda run: run.summary,
     ]  # fmt: skip
     for ask in asked:
         try:
