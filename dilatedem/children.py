@@ -10,6 +10,7 @@ from contextlib import contextmanager, suppress
 from typing import Any
 
 from dilatedem import lifeline
+from dilatedem.errors import printable
 from dilatedem.run.interruption import Interruption
 
 
@@ -103,4 +104,4 @@ def _outcome(code: int, said: str, stopped_by_us: bool) -> tuple[str, str]:
 
 def say(text: str) -> None:
     with suppress(OSError):  # the terminal may be gone
-        print(text, file=sys.stderr, flush=True)
+        print(printable(text, keep="\n"), file=sys.stderr, flush=True)

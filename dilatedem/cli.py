@@ -13,7 +13,7 @@ from typing import Annotated, Any
 import typer
 
 from dilatedem import __version__, interrupts, lifeline
-from dilatedem.errors import CaseError, Interrupted, SimulationStopped
+from dilatedem.errors import CaseError, Interrupted, SimulationStopped, printable
 from dilatedem.files.faults import FULL, sentence
 from dilatedem.garbage import seldom_collected
 
@@ -123,7 +123,7 @@ def run(
 
     loop.run(loaded, folder, threads=threads, resume=resume, overwrite=overwrite, quiet=quiet)
     if not quiet:
-        print(_headline(folder))
+        _say(_headline(folder))
 
 
 @app.command()
@@ -141,7 +141,7 @@ def generate(case: CaseArgument, out: OutOption = None, overrides: SetOption = N
 
     folder = out or _default_out(case)
     _print_pairs(generate_field(load(case, overrides or ()), folder))
-    print(f"field.vtu, field.png and field.json are in {folder}")
+    _say(f"field.vtu, field.png and field.json are in {folder}")
 
 
 @app.command()
@@ -156,7 +156,10 @@ def check(case: CaseArgument, overrides: SetOption = None) -> None:
     loaded = load(case, overrides or ())
     from dilatedem.run import foretell  # after the case: a wrong key is answered without loading the kernels
 
-    _print_pairs(foretell.check(loaded))
+    facts = dict(foretell.check(loaded))
+    for warning in facts.pop("warnings", ()):
+        print(printable(f"warning: {warning}"), file=sys.stderr)
+    _print_pairs(facts)
 
 
 @app.command()
@@ -175,7 +178,7 @@ def post(runs: RunsArgument) -> None:
 
     for path in make_figures(list(runs)):
         if path.name == "report.html":
-            print("\n".join([str(path), *_cautions(doubts(read_summary(path.with_name("summary.json"))))]))
+            _say("\n".join([str(path), *_cautions(doubts(read_summary(path.with_name("summary.json"))))]))
 
 
 @app.command()
@@ -188,7 +191,7 @@ def info(run_dir: Annotated[Path, typer.Argument(metavar="RUN_DIR", help="Folder
     from dilatedem.post import info as describe
 
     _require_run(run_dir)
-    print(describe(run_dir))
+    _say(describe(run_dir))
 
 
 @app.command()
@@ -236,7 +239,7 @@ def sweep(
         case, vary=vary or (), seeds=seeds, jobs=jobs, scheduler=scheduler, out=folder, resume=resume,
         overrides=overrides or (),
     )
-    print(f"{table}: all cases completed; dilatedem post {folder} draws them")
+    _say(f"{table}: all cases completed; dilatedem post {folder} draws them")
 
 
 @app.command()
@@ -252,15 +255,32 @@ def schema() -> None:
 
 def main() -> None:
     """Entry point of the `dilatedem` command."""
+    for number, argument in enumerate(sys.argv[1:], start=1):
+        if fault := _unusable(argument):
+            print(f"argument {number}, {printable(argument[:60])}: {fault}", file=sys.stderr)
+            sys.exit(EXIT_WRONG)
     lifeline.watch()
     with interrupts.heard_once(), seldom_collected():
         app()
 
 
+def _unusable(argument: str) -> str:
+    """Why no command can take an argument, empty where one may: names of files and values are text, and end up in files of text."""
+    if any("\ud800" <= character <= "\udfff" for character in argument):
+        return "is not UTF-8 text; rename the file or write the value in UTF-8"
+    if printable(argument, keep="\n\t") != argument:
+        return "holds a control character; leave it out"
+    return ""
+
+
+def _say(text: object) -> None:
+    print(printable(str(text), keep="\n"))
+
+
 def _end(message: str, code: int) -> None:
     interrupts.program_ends()
     with suppress(OSError):  # the terminal may be gone
-        print(message, file=sys.stderr)
+        print(printable(message, keep="\n"), file=sys.stderr)
     raise typer.Exit(code) from None
 
 
@@ -280,16 +300,19 @@ def _headline(folder: Path) -> str:
     from dilatedem.results.doubts import doubts
 
     summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
-    peaks = [
-        f"peak load on {name} {load['fh_max_N'] / 1e3:.1f} kN at {load['fh_max_time_s']:.2f} s"
-        for name, load in summary["loads"].items()
-    ]
+    peaks = [_peak_words(name, load) for name, load in summary["loads"].items()]
     start = f"{folder}: {summary['simulated_s']:g} s simulated in {_clock(summary['wall_s'])}"
     return "\n".join(["; ".join([start, *peaks]), *_cautions(doubts(summary))])
 
 
 def _cautions(doubts: Iterable[str]) -> list[str]:
     return [f"caution: {doubt}" for doubt in doubts]
+
+
+def _peak_words(name: str, load: Mapping[str, Any]) -> str:
+    if load["fh_max_N"] > 0.0:
+        return f"peak load on {name} {load['fh_max_N'] / 1e3:.1f} kN at {load['fh_max_time_s']:.2f} s"
+    return f"no horizontal load on {name}" if load.get("touched") else f"no ice touched {name}"
 
 
 def _clock(seconds: float) -> str:
@@ -305,7 +328,7 @@ def _print_pairs(pairs: Mapping[str, Any] | Iterable[tuple[str, Any]]) -> None:
     rows = list(_flat(dict(pairs)))
     width = max((len(label) for label, _ in rows), default=0)
     for label, value in rows:
-        print(f"{label:<{width}}  {f'{value:.6g}' if isinstance(value, float) else value}")
+        _say(f"{label:<{width}}  {f'{value:.6g}' if isinstance(value, float) else value}")
 
 
 def _flat(table: Mapping[str, Any], before: str = "") -> Iterable[tuple[str, Any]]:

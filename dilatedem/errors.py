@@ -1,4 +1,10 @@
-"""The three ways a command ends other than well; each carries the one sentence the user reads."""
+"""The three ways a command ends other than well; each carries the one sentence the user reads, and how any text is shown."""
+
+import unicodedata
+
+#: categories of Unicode that a terminal would obey, or could not show: control and format characters, halves of surrogate pairs,
+#: separators of lines and paragraphs
+_UNSHOWN = frozenset({"Cc", "Cf", "Cs", "Zl", "Zp"})
 
 
 class CaseError(Exception):
@@ -11,3 +17,17 @@ class SimulationStopped(Exception):
 
 class Interrupted(Exception):
     """The user stopped the run: the state was saved, `--resume` continues it (exit code 130)."""
+
+
+def printable(text: str, *, keep: str = "") -> str:
+    """`text` as a terminal may have it: what it would obey or cannot show is written as an escape, but for what is in `keep`."""
+    if text.isascii() and text.isprintable():
+        return text
+    return "".join(
+        character if character in keep or unicodedata.category(character) not in _UNSHOWN else _escape(character)
+        for character in text
+    )
+
+
+def _escape(character: str) -> str:
+    return character.encode("unicode_escape").decode("ascii")

@@ -3,14 +3,39 @@
 Values are taken as they are typed in TOML: no text for a number, no number for a switch, nothing infinite.
 """
 
-from typing import Annotated, Any, Literal
+from collections.abc import Iterator
+from functools import cache
+from typing import Annotated, Any, Literal, NamedTuple, get_args
 
+from annotated_types import Ge, Gt
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, model_validator
 from pydantic.json_schema import GenerateJsonSchema
 from pydantic_core import PydanticCustomError
 
 # TOML integers end here; a larger seed could not be written back to case.toml.
 LARGEST_INTEGER = 2**63 - 1
+
+
+class Range(NamedTuple):
+    """What a number of some unit may be in size: at most `most`; where it cannot be negative 0, if it may, or at least `least`."""
+
+    least: float
+    most: float
+
+
+#: by unit; wider than anything in use, and narrow enough that no product of such numbers leaves the range of floating point, and
+#: that a position (double precision) is good to 2e-9 m
+RANGES = {
+    "m": Range(1e-9, 1e7),
+    "m/s": Range(0.0, 1e5),
+    "m/s2": Range(0.0, 1e5),
+    "rad/s": Range(0.0, 1e7),
+    "s": Range(1e-12, 1e10),
+    "Pa": Range(1e-3, 1e21),
+    "kg/m3": Range(1e-6, 1e9),
+}
+#: all other numbers
+OTHER_RANGE = Range(0.0, 1e6)
 
 # A fault found by comparing keys: where it sits, relative to the table that found it, and what is allowed.
 Fault = tuple[tuple[str | int, ...], str]
@@ -59,11 +84,47 @@ class Table(BaseModel):
 
     @model_validator(mode="after")
     def _compare_keys(self):
-        faults = self.faults()
+        faults = self._out_of_range() or self.faults()
         if faults:
             sentences = "; ".join(f"{'.'.join(map(str, where))}: {text}" for where, text in faults)
             raise PydanticCustomError("faults", "{sentences}", {"faults": faults, "sentences": sentences})
         return self
+
+
+    def _out_of_range(self) -> list[Fault]:
+        """Numbers that are too large or too small for their unit."""
+        found: list[Fault] = []
+        for name, field in type(self).model_fields.items():
+            unit = (field.json_schema_extra or {}).get("unit", "")
+            least, most = RANGES.get(unit, OTHER_RANGE)
+            least = least if is_signless(type(self), name) else 0.0
+            for where, value in _floats((name,), getattr(self, name)):
+                if abs(value) > most:
+                    found.append((where, f"must be at most {f'{most:g} {unit}'.strip()} in size"))
+                elif 0.0 < value < least:
+                    found.append((where, f"must be at least {least:g} {unit}"))
+        return found
+
+
+@cache
+def is_signless(table: type[Table], name: str) -> bool:
+    """Whether a key takes no negative numbers."""
+    field = table.model_fields[name]
+    return any(isinstance(bound, Gt | Ge) for bound in field.metadata) or _has_bound(field.annotation)
+
+
+def _has_bound(annotation: Any) -> bool:
+    bounds = [bound for about in getattr(annotation, "__metadata__", ()) for bound in getattr(about, "metadata", ())]
+    return any(isinstance(bound, Gt | Ge) for bound in bounds) or any(map(_has_bound, get_args(annotation)))
+
+
+def _floats(where: tuple[str | int, ...], value: Any) -> Iterator[tuple[tuple[str | int, ...], float]]:
+    """The numbers of a value and where they sit in it."""
+    if isinstance(value, float):
+        yield where, value
+    elif isinstance(value, list | tuple):
+        for i, item in enumerate(value):
+            yield from _floats((*where, i), item)
 
 
 def complete(table: Table, name: str, value: Any) -> None:

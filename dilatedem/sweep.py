@@ -30,6 +30,7 @@ from dilatedem.files.faults import told_as
 from dilatedem.files.lock import Lock, in_use
 from dilatedem.files.whose import refuse_foreign, refuse_links
 from dilatedem.output import folder
+from dilatedem.results.files import read_summary
 
 TABLE = "sweep.csv"
 
@@ -137,10 +138,11 @@ def plan(
     if faults:
         more = f"\n... and {len(faults) - MOST_FAULTS} more" if len(faults) > MOST_FAULTS else ""
         raise CaseError("\n".join(list(faults)[:MOST_FAULTS]) + more)
-    names = [job.folder.name for job in todo]
-    for i, name in enumerate(names):
-        if name in names[:i]:
-            raise CaseError(f"two cases would share the folder {name}; give their values in simpler words")
+    names: set[str] = set()
+    for job in todo:
+        if job.folder.name in names:
+            raise CaseError(f"two cases would share the folder {job.folder.name}; give their values in simpler words")
+        names.add(job.folder.name)
     return todo
 
 
@@ -245,10 +247,10 @@ def _run(job: Job, children: Children) -> None:
 
 
 def _summary(job: Job) -> dict[str, Any]:
-    """summary.json of a run, empty where there is none."""
+    """summary.json of a run, empty where there is none that can be read."""
     try:
-        return json.loads((job.folder / "summary.json").read_text(encoding="utf-8"))
-    except (OSError, ValueError):
+        return read_summary(job.folder / "summary.json")
+    except CaseError:  # damaged
         return {}
 
 

@@ -6,6 +6,9 @@ from pydantic import Field
 
 from dilatedem.keys import Fault, PoissonRatio, Positive, Table, Vector2, Vector3, key
 
+#: points of an outline and vertices of a hull, at most: what can be looked at in a second
+MOST_POINTS, MOST_VERTICES = 10_000, 2_000
+
 
 class Body(Table):
     """An explicit body, numbered from 0 in the order given, before the generated floes.
@@ -13,13 +16,18 @@ class Body(Table):
     Exactly one of `vertices` (any convex shape) and `outline` (a floe, drawn in plan) is given.
     """
 
-    vertices: Annotated[list[Vector3], Field(min_length=1)] | None = key(
+    vertices: Annotated[list[Vector3], Field(min_length=1, max_length=MOST_VERTICES)] | None = key(
         None, "m",
         "Core in body coordinates, to be dilated: one vertex is a sphere, two are a capsule, more are their "
         "convex hull.",
     )
-    outline: Annotated[list[Vector2], Field(min_length=3)] | None = key(
+    outline: Annotated[list[Vector2], Field(min_length=3, max_length=MOST_POINTS)] | None = key(
         None, "m", "Outer outline in plan, convex, in world coordinates, instead of `vertices`."
+    )
+    outline_tolerance: Positive | None = key(
+        None, "m",
+        "Distance from its outline within which corners are left out, for outlines with more of them than a face may have, 127. "
+        "Those that stay do not move.",
     )
     dilated_radius: Positive | None = key(
         None, "m", "Dilated radius; that of `[ice]` unless given. At most half the thickness of an outline."
@@ -54,8 +62,9 @@ class Body(Table):
         elif self.vertices is not None:
             if self.outline is not None:
                 found.append((("outline",), "give either vertices or outline, not both"))
-            elif self.thickness is not None:
-                found.append((("thickness",), "belongs to an outline; vertices give the shape by themselves"))
+            for name in ("thickness", "outline_tolerance"):
+                if self.outline is None and getattr(self, name) is not None:
+                    found.append(((name,), "belongs to an outline; vertices give the shape by themselves"))
             if self.position is not None and len(self.position) != 3:
                 found.append((("position",), "must be a list of 3 numbers; only an outline finds its height"))
         for motion in ("velocity", "angular_velocity"):

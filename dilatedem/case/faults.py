@@ -8,6 +8,7 @@ from pydantic import ValidationError
 
 from dilatedem.case import schema
 from dilatedem.case.lines import Path
+from dilatedem.errors import printable
 
 # A value longer than this is cut in messages: a hull's vertices would bury the sentence.
 LONGEST_VALUE = 60
@@ -28,14 +29,23 @@ _TYPES = {
 _NAME_RULE = "must start with a letter and hold nothing but letters, digits, _ and -"
 
 
-def sentences(error: ValidationError, data: dict) -> list[tuple[Path, str]]:
+def items(error: ValidationError) -> list[dict]:
+    """What pydantic says of each fault."""
+    return error.errors(include_url=False, include_input=False)
+
+
+def path_of(item: dict) -> Path:
+    """The key that an item speaks of."""
+    return _without_kind(item["loc"])
+
+
+def sentences(items: list[dict], data: dict) -> list[tuple[Path, str]]:
     """Every fault once: the path of its key, and the sentence that names key, value and what is allowed.
 
-    data : the case as checked, from which the offending values are quoted.
+    items : as pydantic gives them; data : the case as checked, from which the offending values are quoted.
     """
-    items = error.errors(include_url=False, include_input=False)
     found = [fault for item in items for fault in _faults(item, data)]
-    return [(path, _key_and_value(path, text, data)) for path, text in dict.fromkeys(found)]
+    return [(path, key_and_value(path, text, data)) for path, text in dict.fromkeys(found)]
 
 
 def _faults(item: dict, data: dict) -> list[tuple[Path, str]]:
@@ -89,11 +99,14 @@ def _allowed(kind: str, context: dict, message: str, value: Any) -> str:
     if kind == "less_than":
         return f"must be less than {context['lt']:g}"
     if kind == "less_than_equal":
-        return f"must be at most {context['le']}"
+        most = context["le"]
+        return f"must be at most {most:g}" if isinstance(most, float) else f"must be at most {most}"
     if kind == "literal_error":
         return _choice(re.findall(r"'([^']*)'", context["expected"]), value)
     if kind == "too_short":
         return f"must have at least {context['min_length']} item{'s' * (context['min_length'] != 1)}"
+    if kind == "too_long":
+        return f"must have at most {context['max_length']} items"
     if kind == "string_pattern_mismatch":
         return _NAME_RULE
     return message[:1].lower() + message[1:]
@@ -119,12 +132,17 @@ def _unknown(path: Path, data: dict) -> str:
     return f"unknown key; known here: {', '.join(known)}"
 
 
-def _key_and_value(path: Path, text: str, data: dict) -> str:
-    dotted = ".".join(map(str, path))
+def key_and_value(path: Path, text: str, data: dict) -> str:
+    """A fault's sentence with the key and the value it speaks of."""
+    dotted = ".".join(_short(str(step)) for step in path)
     value = _value(path, data)
     absent = value is None or isinstance(value, dict) or text.startswith("unknown key")
     head = dotted if absent else f"{dotted} = {_toml(value)}"
-    return f"{head}: {text}" if head else text
+    return printable(f"{head}: {text}" if head else text)
+
+
+def _short(name: str) -> str:
+    return name if len(name) <= LONGEST_VALUE else f"{name[: LONGEST_VALUE - 3]}..."
 
 
 def _value(path: Path, data: Any) -> Any:
@@ -143,9 +161,11 @@ def _toml(value: Any) -> str:
     elif isinstance(value, str):
         text = '"' + value.replace("\\", "\\\\").replace('"', '\\"').replace("\n", "\\n") + '"'
     elif isinstance(value, list | tuple):
-        text = f"[{', '.join(map(_toml, value))}]"
+        text = f"[{', '.join(map(_toml, value[:LONGEST_VALUE]))}]"
     elif isinstance(value, dict):
         text = f"{{{', '.join(f'{name} = {_toml(item)}' for name, item in value.items())}}}"
+    elif isinstance(value, int) and abs(value) > 10**LONGEST_VALUE:
+        text = hex(value)  # Python writes no decimals of thousands of digits
     else:
         text = str(value)
     return text if len(text) <= LONGEST_VALUE else f"{text[: LONGEST_VALUE - 3]}..."

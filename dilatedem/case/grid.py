@@ -14,6 +14,11 @@ SEED_KEY = "field.seed"
 # More cases than this in one sweep are taken for a slip of the step, as in 0:100:0.001.
 LARGEST_GRID = 100_000
 
+# Powers of ten between which the numbers of a range lie: beyond, no float could hold them.
+SMALLEST_POWER, LARGEST_POWER = -300, 300
+# Bytes of a folder's name; file systems take 255, and files beside it are called after it.
+LONGEST_NAME = 240
+
 _OPENING, _CLOSING = "[{", "]}"
 
 
@@ -39,10 +44,20 @@ def axis(text: str) -> Axis:
     found: list[Any] = []
     for part in _parts(values):
         found += _range(part, origin) if _is_range(part) else [parse_value(part, origin)]
-    for i, value in enumerate(found):
-        if value in found[:i]:
+    seen: set[str] = set()
+    for value in found:
+        words = repr(_comparable(value))
+        if words in seen:
             raise CaseError(f"{origin}: {value} is given twice")
+        seen.add(words)
     return Axis(key, tuple(found), origin)
+
+
+def _comparable(value: Any) -> Any:
+    """A value in a form in which equal ones have equal words: 1 and 1.0 are the same number, but no switch."""
+    if isinstance(value, list):
+        return [_comparable(item) for item in value]
+    return float(value) if isinstance(value, int) and not isinstance(value, bool) and abs(value) < 2**53 else value
 
 
 def cases(axes: list[Axis]) -> list[list[Override]]:
@@ -62,20 +77,28 @@ def cases(axes: list[Axis]) -> list[list[Override]]:
 
 
 def seed_axis(first: int, count: int) -> Axis:
-    """The axis of `--seeds COUNT`: `count` seeds from that of the case on."""
+    """The axis of `--seeds COUNT`: `count` seeds from that of the case on. Fails with CaseError for more than a sweep runs."""
+    if count > LARGEST_GRID:
+        raise CaseError(f"--seeds {count}: must be at most {LARGEST_GRID}, what a sweep runs at once")
     return Axis(SEED_KEY, tuple(range(first, first + count)), "--seeds")
 
 
 def folder_name(point: list[Override]) -> str:
     """A readable folder name for a point of the grid, of characters that no shell or file system minds.
 
-    `water.velocity=0.3__seed=2`; the values of a list are joined by commas.
+    `water.velocity=0.3__seed=2`; the values of a list are joined by commas. Fails with CaseError for a name that is too long.
     """
     parts = []
     for override in point:
         key = "seed" if override.origin == "--seeds" else override.key
         parts.append(f"{key}={_plain(override.value)}")
-    return re.sub(r"[^\w.,=+-]", "_", "__".join(parts))
+    name = re.sub(r"[^\w.,=+-]", "_", "__".join(parts))
+    if (size := len(name.encode())) > LONGEST_NAME:
+        raise CaseError(
+            f"--vary {point[0].key}: the folder of a case would be called {name[:40]}..., which is {size} bytes long; at most "
+            f"{LONGEST_NAME} will do: vary fewer keys or shorter values"
+        )
+    return name
 
 
 def _plain(value: Any) -> str:
@@ -114,11 +137,16 @@ def _range(text: str, origin: str) -> list[int] | list[float]:
     if len(numbers) != 3 or None in numbers:
         raise CaseError(f"{origin}: {text}: a range is START:STOP:STEP, as in 0.1:1.0:0.1")
     start, stop, step = numbers
+    for number in numbers:
+        if number and not SMALLEST_POWER <= number.adjusted() <= LARGEST_POWER:
+            raise CaseError(f"{origin}: {text}: {number} is no number that a key can hold")
     if step == 0 or (stop - start) * step < 0:
         raise CaseError(f"{origin}: {text}: no step of {step} leads from {start} to {stop}")
-    count = int((stop - start) / step) + 1
-    if count > LARGEST_GRID:
+    steps = (stop - start) / step
+    if steps >= LARGEST_GRID:
+        count = f"{int(steps) + 1}" if steps < 1e15 else f"{steps:.0e}"
         raise CaseError(f"{origin}: {text}: has {count} values; at most {LARGEST_GRID} are run at once")
+    count = int(steps) + 1
     values = [start + i * step for i in range(count)]
     if all(number == number.to_integral_value() and "." not in str(number) for number in numbers):
         return [int(value) for value in values]

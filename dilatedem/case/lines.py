@@ -30,14 +30,14 @@ def line_numbers(text: str) -> dict[Path, int]:
     lines: dict[Path, int] = {}
     items: dict[Path, int] = {}  # arrays of tables: number of the last item begun
     table: Path = ()
-    position = 0
+    position, line, counted = 0, 1, 0
     while position < len(text):
         if text[position] in " \t\r\n":
             position += 1
         elif text[position] == "#":
             position = _end_of_line(text, position)
         else:
-            line = text.count("\n", 0, position) + 1
+            line, counted = line + text.count("\n", counted, position), position
             if text[position] == "[":
                 is_array = text.startswith("[[", position)
                 parts, position = _dotted_key(text, position + 1 + is_array)

@@ -10,6 +10,9 @@ from dilatedem.case import schema
 from dilatedem.case.lines import Path
 from dilatedem.errors import CaseError
 
+#: digits of the number of an item, at most
+_MOST_DIGITS = 9
+
 # Numbers that people type and TOML refuses: a bare point before or after the digits, leading zeros.
 _LOOSE_NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?")
 
@@ -92,7 +95,7 @@ def apply(data: dict, override: Override) -> Path:
 def _item(items: list, part: str, path: Path, override: Override) -> int:
     name = _dotted(path)
     if part.isdecimal():
-        if int(part) < len(items):
+        if len(part) <= _MOST_DIGITS and int(part) < len(items):
             return int(part)
         known = f"its items are 0 to {len(items) - 1}" if items else "it is empty"
         raise CaseError(f"{override.origin}: {name} has no item {part}; {known}")

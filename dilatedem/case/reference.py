@@ -9,7 +9,7 @@ from typing import Any
 from pydantic.fields import FieldInfo
 
 from dilatedem.case.schema import STRUCTURES, TABLES, Body, Case, json_schema
-from dilatedem.keys import Table
+from dilatedem.keys import OTHER_RANGE, RANGES, Table
 
 PAGE = Path("docs", "case-file.md")
 
@@ -26,6 +26,10 @@ from it; `dilatedem schema` prints this page for programs, as JSON Schema.
 On the command line `--set KEY=VALUE` overrides any key, `--set water.velocity=[0.5,0]`, or an item of a list
 by its number or name: `--set water.velocity.0=0.5`, `--set structure.pile.radius=3`. Setting
 `field.floe_size` replaces a `field.floe_count`, and the other way round.
+
+Beside what stands under *allowed*, numbers have a range by their unit, wider than anything in use.
+In size they are at most {most}; {other} without a unit.
+Those that cannot be negative are 0, if that is allowed, or at least {least}. Whole numbers have 64 bits.
 """
 
 _LIMITS = (
@@ -39,7 +43,7 @@ _LIMITS = (
 def page() -> str:
     """The whole page, Markdown."""
     definitions = json_schema()["$defs"]
-    parts = [_HEAD, "## At the top\n", _keys(Case, ["title"], json_schema())]
+    parts = [_HEAD.format(**_ranges()), "## At the top\n", _keys(Case, ["title"], json_schema())]
     for name in Case.model_fields:
         if name in TABLES:
             parts += _section(f"[{name}]", TABLES[name], definitions)
@@ -49,6 +53,15 @@ def page() -> str:
         elif name == "body":
             parts += _section("[[body]]", Body, definitions)
     return "\n".join(parts)
+
+
+def _ranges() -> dict[str, str]:
+    """What the ranges of numbers are, in words."""
+    return {
+        "most": ", ".join(f"{limit.most:g} {unit}" for unit, limit in RANGES.items()),
+        "least": ", ".join(f"{limit.least:g} {unit}" for unit, limit in RANGES.items() if limit.least),
+        "other": f"{OTHER_RANGE.most:g}",
+    }
 
 
 def _section(title: str, table: type[Table], definitions: dict) -> list[str]:
@@ -80,7 +93,8 @@ def _allowed(node: dict) -> str:
     if node["type"] == "array":
         if "prefixItems" in node:
             return f"{len(node['prefixItems'])} × {_allowed(node['prefixItems'][0])}"
-        count = f", at least {node['minItems']}" if "minItems" in node else ""
+        bounds = [f"{word} {node[key]}" for word, key in (("at least", "minItems"), ("at most", "maxItems")) if key in node]
+        count = f", {', '.join(bounds)}" if bounds else ""
         return f"list of ({_allowed(node['items'])}){count}"
     if node["type"] == "boolean":
         return "`true`, `false`"

@@ -136,9 +136,9 @@ class Contact(Table):
         "",
         "`liu2015`: the paper's laws, mode by mode; `consistent`: laws that agree with elasticity and with each other.",
     )
-    damping: NonNegative = key(0.36, "", "Damping coefficient of the normal force; 0 is elastic.")
-    friction: NonNegative = key(0.1, "", "Coefficient of friction.")
-    stiffness_ratio: NonNegative = key(0.7, "", "Tangential over normal stiffness.")
+    damping: Annotated[float, Field(ge=0, le=100)] = key(0.36, "", "Damping coefficient of the normal force; 0 is elastic.")
+    friction: Annotated[float, Field(ge=0, le=1000)] = key(0.1, "", "Coefficient of friction.")
+    stiffness_ratio: Annotated[float, Field(ge=0, le=1000)] = key(0.7, "", "Tangential over normal stiffness.")
 
 
 class Time(Table):

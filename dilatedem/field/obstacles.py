@@ -26,9 +26,10 @@ class HalfPlane:
 
 @dataclass(frozen=True, eq=False)
 class Region:
-    """Plan of any other body: its outline (n, 2) [m]."""
+    """Plan of any other body: everything within `reach` [m] of the convex hull of its points (n, 2) [m]."""
 
     outline: np.ndarray
+    reach: float = 0.0
 
 
 Obstacle = Disk | HalfPlane | Region

@@ -162,7 +162,7 @@ def _touching(outlines: plan.Outlines, obstacles: Sequence[Obstacle], size: np.n
         if isinstance(obstacle, Disk):
             solid, reach = shapely.Point(obstacle.center), obstacle.radius
         else:
-            solid, reach = shapely.Polygon(obstacle.outline), 0.0
+            solid, reach = shapely.convex_hull(shapely.multipoints(obstacle.outline)), obstacle.reach
         for shift in _image_shifts(np.array(solid.centroid.coords[0]), size, periodic):
             image = shapely.transform(solid, lambda xy, by=shift: xy + by)
             touching |= shapely.dwithin(polygons, image, reach)

@@ -11,6 +11,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+import shapely
 from numpy.typing import ArrayLike
 
 from dilatedem.numerics.blocks import offsets, take
@@ -105,6 +106,15 @@ def prepare(outline: ArrayLike) -> np.ndarray:
     if len(corners) < 3 or abs(turn.sum() - 2.0 * np.pi) > 1e-6:
         raise ValueError("the outline crosses itself: give its corners in order, once around")
     return np.ascontiguousarray(corners)
+
+
+def thinned(outline: np.ndarray, tolerance: float) -> np.ndarray:
+    """The convex counter-clockwise outline (n, 2) without corners that lie within `tolerance` [m] of what is left: (k, 2), k >= 3.
+
+    No corner moves (Douglas & Peucker 1973), so that it stays convex and nothing of it lies outside of the outline given.
+    """
+    left = shapely.get_coordinates(shapely.simplify(shapely.Polygon(outline), tolerance, preserve_topology=True))[:-1]
+    return np.ascontiguousarray(left if area(left) > 0.0 else left[::-1])
 
 
 def area(outline: np.ndarray) -> float | np.ndarray:

@@ -50,8 +50,9 @@ def work_up(windows: Windows, names: list[str], dt: float, peaks: dict[str, dict
     for s, name in enumerate(names):
         peak = peaks.setdefault(name, {
             "fx_max_N": 0.0, "fx_min_N": 0.0, "fy_max_N": 0.0, "fy_min_N": 0.0, "fh_max_N": 0.0, "fh_max_time_s": 0.0,
-            "fx_sum": 0.0, "fy_sum": 0.0, "steps": 0,
+            "fx_sum": 0.0, "fy_sum": 0.0, "steps": 0, "touched": False,
         })  # fmt: skip
+        peak["touched"] = peak["touched"] or bool(windows.contacts[:count, s].any())
         _note(peak, times, windows.extreme[:count, s], windows.sum[:count, s], int(steps.sum()))
     windows.count[0] = 0
     return Ended(times, numbers)
@@ -80,9 +81,10 @@ def _note(peak: dict, times: list[float], extreme: np.ndarray, window_sum: np.nd
 
 
 def headline_loads(peak: dict | None) -> dict:
-    """What summary.json says of one structure; None = it has no window yet."""
+    """What summary.json says of one structure; None = it has no window yet. A load that never was has no time."""
     names = ("fx_max_N", "fx_min_N", "fy_max_N", "fy_min_N", "fh_max_N", "fh_max_time_s")
     if peak is None:
-        return dict.fromkeys((*names, "fx_mean_N", "fy_mean_N"), 0.0)
-    steps = max(peak["steps"], 1)
-    return {name: peak[name] for name in names} | {"fx_mean_N": peak["fx_sum"] / steps, "fy_mean_N": peak["fy_sum"] / steps}
+        return dict.fromkeys((*names, "fx_mean_N", "fy_mean_N"), 0.0) | {"fh_max_time_s": None, "touched": False}
+    steps, at = max(peak["steps"], 1), peak["fh_max_time_s"] if peak["fh_max_N"] > 0.0 else None
+    means = {"fx_mean_N": peak["fx_sum"] / steps, "fy_mean_N": peak["fy_sum"] / steps}
+    return {name: peak[name] for name in names} | means | {"fh_max_time_s": at, "touched": peak["touched"]}

@@ -9,6 +9,7 @@ from typing import Any
 
 from dilatedem.results.archive import ContactStatistics, FloeTable, LoadMap, PlanOutline, read_archive
 from dilatedem.results.files import list_snapshots, read_case, read_summary
+from dilatedem.results.soundness import require_table
 from dilatedem.results.tables import Table, read_table, row_count, split_by_structure
 
 
@@ -82,16 +83,20 @@ class RunFolder:
         return max(times)
 
 
+def _sound(path: Path) -> Table:
+    return require_table(read_table(path), path)
+
+
 def open_run(folder: Path) -> RunFolder:
-    """Read the folder of one run. Raises CaseError when it holds no case.toml, or one that is not TOML."""
+    """Read the folder of one run. Raises CaseError when it holds no case.toml, or a file that is damaged."""
     case = read_case(folder)
     archive = read_archive(folder / "run.h5")
     return RunFolder(
         path=folder,
         case=case,
         summary=read_summary(folder / "summary.json"),
-        forces=split_by_structure(read_table(folder / "forces.csv"), case),
-        energy=read_table(folder / "energy.csv"),
+        forces=split_by_structure(_sound(folder / "forces.csv"), case),
+        energy=_sound(folder / "energy.csv"),
         snapshots=list_snapshots(folder, case),
         load_maps=archive.load_maps,
         contacts=archive.contacts,

@@ -1,4 +1,4 @@
-"""run.h5: load maps, contact statistics and the table of floes; what is missing or unreadable stays empty."""
+"""run.h5: load maps, contact statistics and the table of floes; what is missing stays empty."""
 
 from __future__ import annotations
 
@@ -11,8 +11,11 @@ from typing import Any
 import h5py
 import numpy as np
 
+from dilatedem.results.soundness import damaged, require_array
 from dilatedem.results.tables import Table
 
+#: of contacts, by mode
+COUNTED = ("steps", "impulse_Ns", "max_force_N", "max_overlap_m")
 #: of `floes`, what is no column of the table: outlines and their dimensions
 OUTLINES = frozenset({"outline_points", "outline_start", "point", "xy"})
 
@@ -72,23 +75,34 @@ class Archive:
 
 
 def read_archive(path: Path) -> Archive:
-    """What there is of it."""
-    found = Archive()
+    """What there is of it; nothing of a file that is no HDF5. Raises CaseError for contents that no run has written."""
     try:
-        with h5py.File(path, "r") as archive:
-            terms = (archive.attrs.get(name, ()) for name in ("energy_terms", "energy_labels"))
-            found.energy_labels = dict(zip(*(map(as_text, names) for names in terms), strict=True))
-            for name, group in map_groups(archive.get("load_map", {})):
-                found.load_maps[name] = read_load_map(name, group)
-            for pair, group in archive.get("contacts", {}).items():
-                if isinstance(group, h5py.Group):
-                    found.contacts[pair] = read_contacts(archive["contacts"], group)
-            if "floes" in archive:
-                found.floes = read_floes(archive["floes"])
-            for name, group in archive.get("structures", {}).items():
-                found.outlines[name] = PlanOutline(group["outline_m"][()], bool(group.attrs["bounded"]))
-    except (OSError, KeyError):
-        pass
+        file = h5py.File(path, "r")
+    except OSError:
+        return Archive()
+    try:
+        return _read(file)
+    except (ValueError, KeyError, TypeError, IndexError, AttributeError, OSError, RuntimeError) as error:  # as h5py raises them
+        raise damaged(path, f"its contents cannot be read ({error})") from error
+    finally:
+        file.close()
+
+
+def _read(archive: h5py.File) -> Archive:
+    """Raises whatever Python and h5py do where something is not what it should be."""
+    found = Archive()
+    terms = (archive.attrs.get(name, ()) for name in ("energy_terms", "energy_labels"))
+    found.energy_labels = dict(zip(*(map(as_text, names) for names in terms), strict=True))
+    for name, group in map_groups(archive.get("load_map", {})):
+        found.load_maps[name] = read_load_map(name, group)
+    for pair, group in archive.get("contacts", {}).items():
+        if isinstance(group, h5py.Group):
+            found.contacts[pair] = read_contacts(archive["contacts"], group)
+    if "floes" in archive:
+        found.floes = read_floes(archive["floes"])
+    for name, group in archive.get("structures", {}).items():
+        outline = require_array(group["outline_m"][()], (None, 2), f"the outline of {name}")
+        found.outlines[name] = PlanOutline(outline, bool(group.attrs["bounded"]))
     return found
 
 
@@ -105,12 +119,18 @@ def read_load_map(name: str, group: h5py.Group) -> LoadMap:
     edges = next((key for key in group if "_edges_" in key and key != "height_edges_m"), "place_edges_m")
     place, unit = edges.split("_edges_")
     attributes = {key: as_text(value) if isinstance(value, bytes | str) else value for key, value in group.attrs.items()}
+    of = f"the load map of {name}: "
+    places = require_array(group[edges][()], (None,), of + edges)
+    heights = require_array(group["height_edges_m"][()], (None,), of + "height_edges_m")
+    impulse = require_array(group["impulse_Ns"][()], (len(places) - 1, len(heights) - 1), of + "impulse_Ns")
+    if not (np.diff(places) > 0.0).all() or not (np.diff(heights) > 0.0).all():
+        raise ValueError(of + "its edges do not go up")
     return LoadMap(
         structure=name,
         kind=as_text(group.attrs.get("kind", "pile" if place == "angle" else "plane")),
-        impulse=group["impulse_Ns"][()],
-        place_edges=group[edges][()],
-        height_edges=group["height_edges_m"][()],
+        impulse=impulse,
+        place_edges=places,
+        height_edges=heights,
         duration=float(group.attrs.get("duration_s", math.nan)),
         radius=float(group.attrs.get("radius_m", math.nan)),
         place=place,
@@ -122,12 +142,17 @@ def read_load_map(name: str, group: h5py.Group) -> LoadMap:
 
 def read_contacts(parent: h5py.Group, group: h5py.Group) -> ContactStatistics:
     names = parent["mode_names"][()] if "mode_names" in parent else parent.attrs["mode_names"]
-    columns = {name: np.asarray(data[()], dtype=np.float64) for name, data in group.items() if data.dtype.kind in "iuf"}
+    found = {name: data[()] for name, data in group.items() if name in COUNTED or data.dtype.kind in "iuf"}
+    columns = {name: require_array(np.asarray(found[name]), (len(names),), f"contacts: {name}") for name in (*COUNTED, *found)}
+    columns = {name: column.astype(np.float64) for name, column in columns.items()}
     return ContactStatistics([as_text(name) for name in names], columns)
 
 
 def read_floes(group: h5py.Group) -> FloeTable:
-    points, start = group["outline_points"][()], group["outline_start"][()]
+    points, start = require_array(group["outline_points"][()], (None, 2), "floes: outline_points"), group["outline_start"][()]
+    count = len(start) - 1
+    for name in ("plan_area_m2", "mass_kg"):
+        require_array(group[name][()], (count,), f"floes: {name}")
     outlines = [points[first:last] for first, last in zip(start[:-1], start[1:], strict=True)]
     columns = {name: data[()] for name, data in group.items() if name not in OUTLINES}
     return FloeTable(outlines, group["plan_area_m2"][()], group["mass_kg"][()], columns)

@@ -9,7 +9,8 @@ import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 from typing import Any
 
-from dilatedem.errors import CaseError
+from dilatedem.errors import CaseError, printable
+from dilatedem.results.soundness import MOST_DIGITS, require_case, require_summary
 
 
 def is_run(folder: Path) -> bool:
@@ -21,22 +22,28 @@ def is_sweep(folder: Path) -> bool:
 
 
 def read_case(folder: Path) -> dict[str, Any]:
-    """case.toml of a run. Raises CaseError when there is none, or one that is not TOML."""
+    """case.toml of a run. Raises CaseError when there is none, or one that is not TOML or no case."""
     if not is_run(folder):
         raise CaseError(f"{folder}: no run to be found here (there is no case.toml in it)")
+    path = folder / "case.toml"
     try:
-        return tomllib.loads((folder / "case.toml").read_text(encoding="utf-8"))
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise CaseError(f"{folder / 'case.toml'}: not a readable TOML file: {error}") from error
+        case = tomllib.loads(path.read_text(encoding="utf-8"))
+    except (ValueError, RecursionError) as error:  # no TOML, no UTF-8, numbers or nesting beyond what Python reads
+        raise CaseError(f"{path}: not a readable TOML file: {printable(str(error))}") from error
+    require_case(case, path)
+    return case
 
 
 def read_summary(path: Path) -> dict[str, Any]:
-    """summary.json, or an empty dict where there is none or it cannot be read."""
+    """summary.json, or an empty dict where there is none or it is no JSON. Raises CaseError for one that no run has written."""
     try:
         content = json.loads(path.read_text(encoding="utf-8"))
-    except (OSError, ValueError):
+    except (OSError, ValueError, RecursionError):
         return {}
-    return content if isinstance(content, dict) else {}
+    if not isinstance(content, dict):
+        return {}
+    require_summary(content, path)
+    return content
 
 
 def list_snapshots(folder: Path, case: dict[str, Any]) -> list[tuple[float, Path]]:
@@ -46,10 +53,10 @@ def list_snapshots(folder: Path, case: dict[str, Any]) -> list[tuple[float, Path
         tree = ElementTree.parse(folder / "ice.pvd")
         for entry in tree.iter("DataSet"):
             found.append((float(entry.get("timestep", "nan")), folder / entry.get("file", "")))
-    except (OSError, ElementTree.ParseError, ValueError):
+    except (OSError, ElementTree.ParseError, ValueError, LookupError):  # LookupError: an encoding that Python does not know
         interval = float(case.get("output", {}).get("snapshot_interval", 1.0))
         for file in sorted((folder / "snapshots").glob("ice_*.vtu")):
             number = file.stem.removeprefix("ice_")
-            if number.isdigit():
+            if number.isdecimal() and len(number) < MOST_DIGITS:
                 found.append((int(number) * interval, file))
     return sorted((time, file) for time, file in found if math.isfinite(time) and file.is_file())

@@ -14,6 +14,7 @@ from dilatedem.results.doubts import doubts
 from dilatedem.results.files import list_snapshots, read_case, read_summary
 from dilatedem.results.maps import as_dataset
 from dilatedem.results.packages import imported
+from dilatedem.results.soundness import require_table
 from dilatedem.results.tables import read_frame
 
 if TYPE_CHECKING:
@@ -52,17 +53,17 @@ class Run:
     @cached_property
     def forces(self) -> pandas.DataFrame:
         """forces.csv: loads on structures, a row per window and structure."""
-        return read_frame(self.path / "forces.csv")
+        return self._frame("forces.csv")
 
     @cached_property
     def energy(self) -> pandas.DataFrame:
         """energy.csv: the energy ledger."""
-        return read_frame(self.path / "energy.csv")
+        return self._frame("energy.csv")
 
     @cached_property
     def bodies(self) -> pandas.DataFrame:
         """bodies.csv: motion of the tracked bodies."""
-        return read_frame(self.path / "bodies.csv")
+        return self._frame("bodies.csv")
 
     @cached_property
     def hits(self) -> pandas.DataFrame:
@@ -73,6 +74,12 @@ class Run:
     def structures(self) -> pandas.DataFrame:
         """structures.csv: motion of the structures that move."""
         return read_frame(self.path / "structures.csv")
+
+    def _frame(self, name: str) -> pandas.DataFrame:
+        """A table that every run writes in one form. Raises CaseError where there is none or it is damaged."""
+        frame = read_frame(self.path / name)
+        require_table({column: frame[column].to_numpy() for column in frame}, self.path / name)
+        return frame
 
     @property
     def load_map_names(self) -> list[str]:

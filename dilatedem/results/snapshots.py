@@ -10,6 +10,8 @@ import meshio
 import numpy as np
 import shapely
 
+from dilatedem.results.soundness import require_array
+
 
 @dataclass(frozen=True)
 class Snapshot:
@@ -28,14 +30,19 @@ class Snapshot:
 def read_snapshot(path: Path, time: float) -> Snapshot:
     """Read one VTU file of polyhedra. Raises OSError when the file is cut short or damaged."""
     try:
-        mesh = meshio.read(path)
+        return _read(meshio.read(path), time)
     except (SystemExit, Exception) as error:  # meshio raises what its parsers raise, and exits on some faults
         raise OSError(f"{path}: not a readable snapshot: {error}") from error
+
+
+def _read(mesh: meshio.Mesh, time: float) -> Snapshot:
+    """Raises whatever NumPy and meshio do where something is not what it should be."""
     # Blocks and their data agree because a run writes its cells by their number of corners; see output.vtu.
     cells = [np.concatenate(faces) for block in mesh.cells for faces in block.data]
     count = len(cells)
     owner = np.repeat(np.arange(count), [len(corners) for corners in cells])
     corners = mesh.points[np.concatenate(cells), :2] if cells else np.zeros((0, 2))
+    require_array(corners, (None, 2), "its points")
     outlines = plan_outlines(corners, owner, count)
     body = gather(mesh, "body", (count,)).astype(np.int64)
     order = np.argsort(body, kind="stable")
@@ -68,7 +75,8 @@ def gather(mesh: meshio.Mesh, name: str, shape: tuple[int, ...]) -> np.ndarray:
     """Cell data of all blocks, one after the other; zeros where the file lacks this array."""
     if name not in mesh.cell_data:
         return np.zeros(shape)
-    return np.concatenate([np.asarray(block) for block in mesh.cell_data[name]]).reshape(shape)
+    values = np.concatenate([np.asarray(block) for block in mesh.cell_data[name]]).reshape(shape)
+    return require_array(values, shape, name)
 
 
 def plan_outlines(corners: np.ndarray, owner: np.ndarray, count: int) -> list[np.ndarray]:

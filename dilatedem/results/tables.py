@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import csv
 import math
 from pathlib import Path
@@ -34,20 +35,24 @@ def whole_lines(path: Path) -> str:
 
 
 def read_table(path: Path) -> Table:
-    """A CSV file by columns; no file gives no columns."""
+    """A CSV file by columns; no file gives no columns. Raises CaseError for a file that is no table at all."""
     if not path.is_file():
         return {}
     lines = whole_lines(path).splitlines()
     if not lines:
         return {}
     header, *rows = lines
-    names = next(csv.reader([header]))
     try:
-        return numbers_and_names(names, rows)
-    except ValueError:  # text or empty cells among the numbers, rows of other lengths
+        names = next(csv.reader([header]), [])
+        if not names:
+            raise CaseError(f"{path}: no table that can be read: its first line is empty")
+        with contextlib.suppress(ValueError):  # text or empty cells among the numbers, rows of other lengths
+            return numbers_and_names(names, rows)
         cells = [row for row in csv.reader(rows) if len(row) == len(names)]
-        columns = zip(*cells, strict=True) if cells else [()] * len(names)
-        return {name: as_column(name, column) for name, column in zip(names, columns, strict=True)}
+    except csv.Error as error:
+        raise CaseError(f"{path}: no table that can be read: {error}") from error
+    columns = zip(*cells, strict=True) if cells else [()] * len(names)
+    return {name: as_column(name, column) for name, column in zip(names, columns, strict=True)}
 
 
 def numbers_and_names(names: list[str], rows: list[str]) -> Table:
@@ -55,7 +60,7 @@ def numbers_and_names(names: list[str], rows: list[str]) -> Table:
 
     Raises ValueError for any other.
     """
-    if not rows:
+    if not any(rows):
         raise ValueError("no rows")
     text = [name for name in names if name in TEXT_COLUMNS]
     style = {"delimiter": ",", "quotechar": '"', "comments": None, "ndmin": 2}

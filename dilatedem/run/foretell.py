@@ -6,11 +6,16 @@ from dilatedem.case.schema import Case
 from dilatedem.run.observers import expected_size
 from dilatedem.run.pace import total_steps
 from dilatedem.run.simulation import Simulation
+from dilatedem.scene.room import memory
 
 
 def check(case: Case) -> dict:
-    """Floes, mass, time step, steps, expected size of the output. Raises CaseError for what only building a case can tell."""
+    """Floes, mass, time step, steps, expected size of the output; `warnings`: what is hardly meant, a sentence each.
+
+    Raises CaseError for what only building a case can tell.
+    """
     simulation = Simulation.of_case(case)
+    simulation.require_apart()
     scene, floating = simulation.scene, simulation.model.floating
     areas = scene.plan_area[scene.explicit :]
     facts = {
@@ -23,8 +28,9 @@ def check(case: Case) -> dict:
         "step, s": simulation.dt,
         "step / critical step": simulation.dt / simulation.critical,
         "steps": total_steps(case, simulation.dt),
+        "memory, MB, about": memory(scene.count) / 1e6,
         "output, MB, about": expected_size(case, floating, len(scene.structures)) / 1e6,
     }
     if len(areas):
         facts |= {"concentration": scene.field.concentration, "floe size, m": float(np.sqrt(areas.mean()))}
-    return facts
+    return facts | {"warnings": simulation.advice()}

@@ -39,6 +39,8 @@ def run(case: Case, out: Path, *, threads: int = 1, resume: bool = False, overwr
         except ValueError as fault:
             raise CaseError(f"--{fault}") from fault
         simulation = Simulation.of_case(case, threads=threads)
+        if not resume:
+            simulation.require_apart()
         with Lock(out) as lock:
             folder.check(out, resume=resume, overwrite=overwrite)  # again: another run may have ended here in between
             saved = load_checkpoint(out, case, simulation) if resume else None
@@ -59,6 +61,8 @@ def _simulate(simulation: Simulation, out: Path, lock: Lock, saved: dict | None,
     case = simulation.case
     steps = total_steps(case, simulation.dt)
     with Progress(case.time.duration, quiet) as progress:
+        for sentence in [] if saved else simulation.advice():
+            progress.message(f"warning: {sentence}")
         progress.message(_headline(simulation, steps, layer))
         compile_s = _compile(simulation, progress)
         with Interruption() as interruption, told_as(SimulationStopped, lambda error: _way_on(out, error)):

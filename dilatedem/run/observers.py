@@ -25,6 +25,8 @@ from dilatedem.run.error_check import LoadWatch
 
 #: s of wall time after which, at the latest, new rows and snapshots are in the tables and in ice.pvd (or at the next thing due)
 REFRESH_S = 1.0
+#: message of a run that is complete, where there was something to touch
+NOTHING_TOUCHED = "no ice touched any structure"
 
 
 class Checkpoints(Observer):
@@ -204,6 +206,9 @@ class RunFolder:
         case, step = simulation.case, int(simulation.state.clock.step[0])
         for observer in self._observers:
             told |= observer.summary()
+        loads = told["loads"]
+        if status == "completed" and loads and not any(load["touched"] for load in loads.values()):
+            message = NOTHING_TOUCHED
         stepping_s = self._wall_s - self._compile_s - self._checked.get("wall_s", 0.0)
         self._background.put(write_summary, self._out / folder.SUMMARY, {
             "status": status, "message": message, "title": case.title, "version": __version__, "versions": versions,

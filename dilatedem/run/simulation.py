@@ -13,11 +13,13 @@ from dilatedem.events.kinds import events_of
 from dilatedem.geometry.shapes import Hulls, Shapes
 from dilatedem.jit import Alone, NoTimer, Team, Timer, is_cached, start_threads
 from dilatedem.motion.timestep import critical_step
+from dilatedem.run.advice import advice
 from dilatedem.run.error_check import Watch
 from dilatedem.run.faults import fault
 from dilatedem.run.pace import free_span, time_step
 from dilatedem.run.views import Floes, Structures
 from dilatedem.scene.arrays import build_model, initial_bodies
+from dilatedem.scene.overlaps import require_apart
 from dilatedem.scene.place import Scene, compose
 from dilatedem.state.bodies import Bodies, Ids, Solids
 from dilatedem.state.clock import NEVER, Clock, Status, clock_at_start
@@ -120,6 +122,17 @@ class Simulation:
         except ValueError as error:
             raise CaseError(str(error)) from error
         return cls.of_case(case_from(case, overrides), threads=threads)
+
+    def require_apart(self) -> None:
+        """Raises CaseError that names the bodies that stand in each other, in structures or in walls: no run begins like that.
+
+        For a simulation at t = 0. In Python one may look into what the laws make of it all the same.
+        """
+        require_apart(self.scene, self.model, self.state.bodies)
+
+    def advice(self) -> list[str]:
+        """What of the case is hardly meant, a sentence each; for a simulation at t = 0."""
+        return advice(self.case, self.scene, self.model, self.state.bodies, share=self.dt / self.critical)
 
     def step(self, count: int = 1) -> None:
         """Go on by so many time steps of `dt`. Raises SimulationStopped where it cannot."""

@@ -69,18 +69,21 @@ def _contact_setting(case: Case) -> ContactSetting:
 
 
 def _require_one_image(case: Case, reach: np.ndarray, cores: list[Part], periodic: tuple[bool, bool]) -> None:
-    """A pair of bodies, `reach` (n,) [m], may meet in one periodic image only. Raises CaseError where a period is too short."""
-    reaches = np.sort(reach)[::-1]
-    partners = [*reaches[1:2], *(part.plan_reach for part in cores)]
-    if not partners:
-        return
-    least = 2.0 * (reaches[0] + max(partners))
+    """A pair of bodies, `reach` (n,) [m], may meet in one periodic image only, and no body its own.
+
+    Raises CaseError where a period is too short.
+    """
+    largest, second, *_ = [*np.sort(reach)[::-1], 0.0]
+    partner = max([second, *(part.plan_reach for part in cores)])
+    least = 2.0 * (largest + partner)
     for axis, wraps in enumerate(periodic):
-        if wraps and case.domain.size[axis] <= least:
-            raise CaseError(
-                f"domain.size.{axis} = {case.domain.size[axis]:g}: is periodic and must be more than {least:.3g} m, or the two "
-                "largest bodies could meet on both sides at once"
-            )
+        if not wraps or case.domain.size[axis] > least:
+            continue
+        where = f"domain.size.{axis} = {case.domain.size[axis]:g}: is periodic and must be more than {least:.3g} m, or "
+        if case.domain.size[axis] <= 2.0 * largest:
+            number = int(np.argmax(reach))
+            raise CaseError(f"{where}body {number}, {2.0 * largest:.3g} m across, could meet its own image")
+        raise CaseError(f"{where}the two largest bodies could meet on both sides at once")
 
 
 def _solids(case: Case, scene: Scene) -> Solids:

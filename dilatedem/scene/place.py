@@ -10,13 +10,13 @@ from dilatedem.case.schema import WALL_NAMES, Case
 from dilatedem.errors import CaseError
 from dilatedem.field.obstacles import Region
 from dilatedem.field.placement import FloeField, equilibrium_height, ice_field
-from dilatedem.field.sizes import floe_count
 from dilatedem.geometry import outline as plan
 from dilatedem.geometry.floes import floe_shapes
 from dilatedem.geometry.polyhedron import convex_hull, prism
 from dilatedem.geometry.shapes import BodyShape
 from dilatedem.numerics.frames import matrix_from_quaternion, quaternion_from_rotation_vector
 from dilatedem.numerics.plain import turned
+from dilatedem.scene.room import generated_floes
 from dilatedem.state.storage import MOST_CORNERS
 from dilatedem.structures.held import HeldBody
 from dilatedem.structures.kind import Chart, Part, Structure
@@ -25,12 +25,15 @@ from dilatedem.structures.plane import Plane
 #: corners of a face after clipping by another: both counts together have to fit into the workspace
 MOST_FACE_CORNERS = MOST_CORNERS // 2 - 1
 
+#: of an outline's size, where the search for a tolerance that thins it enough begins
+FIRST_TOLERANCE = 1e-5
+
 
 @dataclass(frozen=True, eq=False)
 class PlacedBody:
     """An entry of the case's `[[body]]` list at t = 0.
 
-    outline: (k, 2) [m] as seen from above, world coordinates; plan_area [m2].
+    outline: (k, 2) [m] as seen from above, world coordinates; plan_area [m2]; core_outline: (c, 2) [m] its core's corners, too.
     """
 
     shape: BodyShape
@@ -38,6 +41,7 @@ class PlacedBody:
     orientation: np.ndarray  # (4,) unit quaternion, body to world
     outline: np.ndarray
     plan_area: float
+    core_outline: np.ndarray
 
 
 @dataclass(frozen=True, eq=False)
@@ -146,17 +150,16 @@ def _floe_field(case: Case, explicit: list[PlacedBody]) -> FloeField:
     """The generated floes of a case, clear of its structures and of its explicit bodies."""
     if case.field.source == "bodies":
         return FloeField(plan.Outlines.of([]), np.zeros(0), 1.0, 0.0, 0)
-    size = case.domain.size
-    count = case.field.floe_count or floe_count(size, case.field.concentration, case.field.floe_size)
+    count = generated_floes(case)
     obstacles = [obstacle for structure in case.structure for obstacle in structure.obstacles(case.ice.thickness)]
     return ice_field(
-        size,
+        case.domain.size,
         count,
         case.field.concentration,
         periodic=periodic_axes(case),
         seed=case.field.seed,
         dilated_radius=case.ice.dilated_radius,
-        obstacles=[*obstacles, *(Region(body.outline) for body in explicit)],
+        obstacles=[*obstacles, *(Region(body.core_outline, body.shape.radius) for body in explicit)],
     )
 
 
@@ -194,7 +197,7 @@ def _explicit_body(case: Case, number: int, body: Body) -> PlacedBody:
     """A [[body]] entry in its place at t = 0. Raises CaseError that names it."""
     try:
         if body.outline is not None:
-            shape, centroid = _floe_shape(plan.prepare(body.outline), body.thickness, body.dilated_radius)
+            shape, centroid = _floe_shape(_corners(body), body.thickness, body.dilated_radius)
             height = 0.0
             if case.water.enabled and (body.position is None or len(body.position) == 2):
                 height = _floating_height(case, shape, body.density)
@@ -204,15 +207,35 @@ def _explicit_body(case: Case, number: int, body: Body) -> PlacedBody:
             position = np.zeros(3)
     except ValueError as fault:
         raise CaseError(f"body.{number}: {fault}") from fault
-    if any(len(face) > MOST_FACE_CORNERS for face in shape.core.faces):
-        raise CaseError(f"body.{number}: a face has too many corners; at most {MOST_FACE_CORNERS} can be handled")
+    most = max((len(face) for face in shape.core.faces), default=0)
+    if most > MOST_FACE_CORNERS:
+        raise CaseError(f"body.{number}: a face has {most} corners, and at most {MOST_FACE_CORNERS} can be handled{_way_on(body)}")
     if body.position is not None:
         position[: len(body.position)] = body.position
     orientation = quaternion_from_rotation_vector(body.rotation)
-    corners = turned(matrix_from_quaternion(orientation), shape.outer.vertices) + position
+    turn = matrix_from_quaternion(orientation)
+    corners, core = turned(turn, shape.outer.vertices) + position, turned(turn, shape.core.vertices) + position
     seen = convex_hull(corners * [1.0, 1.0, 0.0]).vertices[:, :2]
     seen = seen if plan.area(seen) > 0.0 else seen[::-1]
-    return PlacedBody(shape, position, orientation, seen, float(plan.area(seen)))
+    return PlacedBody(shape, position, orientation, seen, float(plan.area(seen)), core[:, :2])
+
+
+def _corners(body: Body) -> np.ndarray:
+    """The outline (k, 2) [m] of a body that is drawn in plan, thinned where it asks for that. Raises ValueError for a bad one."""
+    outline = plan.prepare(body.outline)
+    return outline if body.outline_tolerance is None else plan.thinned(outline, body.outline_tolerance)
+
+
+def _way_on(body: Body) -> str:
+    """What to do about an outline of too many corners, with a tolerance that is enough."""
+    if body.outline is None:
+        return "; give it fewer vertices"
+    outline = plan.prepare(body.outline)
+    tolerance = 10.0 ** math.floor(math.log10(FIRST_TOLERANCE * float(np.ptp(outline, axis=0).max())))
+    while len(left := plan.thinned(outline, tolerance)) > MOST_FACE_CORNERS:
+        tolerance *= 2.0
+    leaves = f"which leaves {len(left)} of {len(outline)}"
+    return f"; leave some out, or have that done by outline_tolerance = {tolerance:g} (m), {leaves}"
 
 
 def _floe_shape(outline: np.ndarray, thickness: float, radius: float) -> tuple[BodyShape, np.ndarray]:

@@ -22,6 +22,8 @@ from dilatedem.structures.kind import (
     ratio_key,
 )
 
+#: a normal shorter than this is taken for zero; its square must not vanish in round-off
+SHORTEST_NORMAL = 1e-9
 #: width of what is drawn, in diagonals of the domain
 DRAWN_EXTENT = 1.2
 #: m, of the plate that is drawn on the solid side
@@ -43,8 +45,10 @@ class Plane(Structure):
     poisson_ratio: PoissonRatio = ratio_key()
 
     def faults(self) -> list[Fault]:
-        if norm(self.normal) == 0.0:
-            return [(("normal",), "must not be zero: it points from the plane towards the ice")]
+        length = float(norm(self.normal))
+        if length < SHORTEST_NORMAL:
+            shorter = f", nor shorter than {SHORTEST_NORMAL:g}" if length > 0.0 else ""
+            return [(("normal",), f"must not be zero{shorter}: it points from the plane towards the ice")]
         return []
 
     @property

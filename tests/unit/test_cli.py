@@ -210,3 +210,31 @@ def test_ctrl_c_while_the_program_loads_prints_no_traceback():
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
     assert (done.returncode, done.stdout, done.stderr) == (130, "", "")
+
+
+@pytest.mark.parametrize(
+    ("argument", "said"),
+    [
+        (b"title=\xff", "argument 4, title=\\udcff: is not UTF-8 text; rename the file or write the value in UTF-8\n"),
+        (b"title=\x1b[31m", "argument 4, title=\\x1b[31m: holds a control character; leave it out\n"),
+        (b"title=\xe2\x80\xae", "argument 4, title=\\u202e: holds a control character; leave it out\n"),
+    ],
+)
+def test_arguments_that_are_no_text(argument, said):
+    command = [sys.executable, "-m", "dilatedem", "check", str(PILE), "--set"]
+    done = subprocess.run([*command, argument], capture_output=True, check=False)
+    assert (done.returncode, done.stdout, done.stderr.decode()) == (2, b"", said)
+
+
+def test_a_folder_that_is_no_text_is_not_made(tmp_path):
+    command = [sys.executable, "-m", "dilatedem", "generate", str(PILE), "--out", bytes(tmp_path / "f") + b"\xff"]
+    done = subprocess.run(command, capture_output=True, check=False)
+    assert (done.returncode, list(tmp_path.iterdir())) == (2, [])
+    assert done.stderr.startswith(b"argument 4, ") and b"is not UTF-8 text" in done.stderr
+    assert done.stderr.count(b"\n") == 1
+
+
+def test_what_is_printed_cannot_command_a_terminal(simulation):
+    simulation.fault = SimulationStopped("the file \x1b[2J said \u202e so\nand more")
+    result = invoke("run", PILE)
+    assert (result.exit_code, result.stderr) == (3, "the file \\x1b[2J said \\u202e so\nand more\n")

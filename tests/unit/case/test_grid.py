@@ -1,5 +1,7 @@
 """Axes of a sweep: lists, ranges without drift, combinations in order, readable folders."""
 
+import time
+
 import pytest
 
 from dilatedem.case.grid import Axis, axis, cases, folder_name, seed_axis
@@ -42,6 +44,10 @@ def test_values(text, values):
         ("k=1:2:-1", "--vary k: 1:2:-1: no step of -1 leads from 1 to 2"),
         ("k=0:1:1e-9", "--vary k: 0:1:1e-9: has 1000000001 values"),
         ("k=1,2,1", "--vary k: 1 is given twice"),
+        ("k=1,2,1.0", "--vary k: 1.0 is given twice"),
+        ("k=0:1e999999:1e-999999", "--vary k: 0:1e999999:1e-999999: 1E+999999 is no number that a key can hold"),
+        ("k=0:1:1e-999999", "--vary k: 0:1:1e-999999: 1E-999999 is no number that a key can hold"),
+        ("k=0:1e200:1e-200", "--vary k: 0:1e200:1e-200: has 1e+400 values; at most 100000"),
     ],
 )
 def test_faults(text, expected):
@@ -55,6 +61,29 @@ def test_combinations_change_the_last_axis_fastest():
     assert [[override.value for override in point] for point in points] == [[1, 5], [1, 6], [2, 5], [2, 6]]
     names = [folder_name(point) for point in points]
     assert names == ["a=1__seed=5", "a=1__seed=6", "a=2__seed=5", "a=2__seed=6"]
+
+
+def test_a_switch_is_no_number():
+    assert axis("k=1,true").values == (1, True)
+
+
+def test_a_hundred_thousand_values_take_no_time():
+    began = time.perf_counter()
+    assert len(axis("k=1:100000:1").values) == 100_000
+    assert time.perf_counter() - began < 5.0
+
+
+def test_seeds_that_cannot_be_meant():
+    with pytest.raises(CaseError, match="^--seeds 1000000000: must be at most 100000"):
+        seed_axis(1, 10**9)
+
+
+def test_a_folder_name_fits_every_file_system():
+    for long in ("x" * 300, "ä" * 130):
+        points = cases([axis(f"title={long},b")])
+        with pytest.raises(CaseError, match=r"^--vary title: the folder of a case would be called title=.*bytes long; at most 240"):
+            folder_name(points[0])
+    assert len(folder_name(cases([axis("title=" + "x" * 234)])[0])) == 240
 
 
 def test_grids_that_cannot_be_meant():

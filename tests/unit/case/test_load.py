@@ -188,7 +188,10 @@ def test_override_is_named_as_the_place_of_its_fault(tmp_path):
         (b"title = 'x", "pile.toml: not valid TOML: "),
         (b"\xff\xfe", "pile.toml: is not UTF-8 text (byte 0)"),
         (b"x = " + b"[" * 5000, "pile.toml: is nested too deeply"),
-        (b"x = " + b"9" * 5000, "pile.toml: not valid TOML: "),
+        (b"[ice]\nx = " + b"9" * 5000, "pile.toml:2: holds a whole number of 5000 digits; at most 18 can be read"),
+        (b"x = " + b"[" * 100 + b"]" * 100, "pile.toml: x.0: is nested too deeply: at most 24 tables and lists"),
+        (b"x." * 3000 + b"x = 1", "pile.toml: x.x: is nested too deeply: at most 24 tables and lists"),
+        (b" " * (2**26 + 1), "pile.toml: is larger than 64 MB"),
     ],
 )
 def test_unreadable_text(tmp_path, content, expected):
@@ -223,3 +226,13 @@ def test_standard_input(monkeypatch):
     monkeypatch.setattr("sys.stdin", io.StringIO("\n[ice]\ndensity = 0\n"))
     with pytest.raises(CaseError, match="^<stdin>:3: ice.density = 0: must be greater than 0$"):
         load("-")
+
+
+def test_standard_input_in_bytes(monkeypatch):
+    def given(content: bytes):
+        monkeypatch.setattr("sys.stdin", io.TextIOWrapper(io.BytesIO(content), encoding="utf-8"))
+        return load("-")
+
+    assert given(b"\xef\xbb\xbf[ice]\ndensity = 900\n").ice.density == 900
+    with pytest.raises(CaseError, match=r"^<stdin>: is not UTF-8 text \(byte 8\), so it is no case file$"):
+        given(b"title = \xff")

@@ -12,9 +12,9 @@ from dilatedem.case.load import STANDARD_INPUT, Source, build, load
 from dilatedem.case.schema import Body, Case
 from dilatedem.case.write import dump
 
-numbers = st.floats(-1e12, 1e12)
-positive = st.floats(1e-12, 1e12)
-non_negative = st.floats(0, 1e12)
+numbers = st.floats(-1e5, 1e5)
+positive = st.floats(1e-6, 1e5)
+non_negative = st.floats(0, 1e3)
 ratios = st.floats(0, 0.5, exclude_max=True)
 names = st.from_regex(r"[A-Za-z_][A-Za-z0-9_-]{0,8}", fullmatch=True).filter(lambda name: "wall_" not in name)
 
@@ -86,7 +86,7 @@ def test_every_default_is_explicit_and_units_stand_beside():
     assert set(data["structure"][0]) == {
         "kind", "name", "center", "radius", "elastic_modulus", "poisson_ratio"
     }
-    assert set(data["body"][0]) == set(Body.model_fields) - {"outline", "thickness"}
+    assert set(data["body"][0]) == set(Body.model_fields) - {"outline", "outline_tolerance", "thickness"}
     assert "velocity = [0.3, 0.0]  # m/s\n" in text
     assert 'step = "auto"\n' in text
 
@@ -99,7 +99,7 @@ def test_numbers_keep_every_digit(tmp_path):
     assert load(path) == case
 
 
-@pytest.mark.parametrize("value", [0.1, 1e-300, 123456789012.5])
+@pytest.mark.parametrize("value", [0.1, 1e-300, 12345.678901234567])
 def test_floats(value):
     case = Case.model_validate({"gravity": {"acceleration": value}})
     assert build(Source("x", dump(case))).gravity.acceleration == value

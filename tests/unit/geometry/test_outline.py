@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from dilatedem.geometry.outline import MITRE_LIMIT, Outlines, area, centroid, erode, mitred, perimeter, prepare
+from dilatedem.geometry.outline import MITRE_LIMIT, Outlines, area, centroid, erode, mitred, perimeter, prepare, thinned
 from dilatedem.geometry.polyhedron import convex_hull
 
 RECTANGLE = np.array([[0.0, 0.0], [4.0, 0.0], [4.0, 2.0], [0.0, 2.0]])
@@ -124,3 +124,17 @@ def test_outlines_read_as_a_list_and_work_as_arrays():
     kept = outlines.where(np.array([False, True, True, False, False]))
     np.testing.assert_array_equal(kept.points, np.concatenate(each[1:3]))
     assert len(Outlines.of([])) == 0 and Outlines.of([]).by_sides() == []
+
+
+@pytest.mark.parametrize("tolerance", [1e-6, 1e-3, 0.05, 0.5, 10.0])
+def test_thinning_leaves_corners_out_and_moves_none(tolerance):
+    angle = np.arange(128) * (2.0 * np.pi / 128)
+    outline = 14.0 * np.column_stack((np.cos(angle), np.sin(angle)))
+    left = thinned(outline, tolerance)
+    assert 3 <= len(left) <= 128
+    assert (len(left) < 128) == (tolerance > 14.0 * (1.0 - np.cos(angle[1])))
+    assert {tuple(corner) for corner in left} <= {tuple(corner) for corner in outline}
+    assert prepare(left).tolist() == left.tolist()  # convex and counter-clockwise still
+    side = np.roll(left, -1, axis=0) - left
+    outward = np.column_stack((side[:, 1], -side[:, 0])) / np.linalg.norm(side, axis=1)[:, None]
+    assert np.einsum("ijk,jk->ij", outline[:, None] - left, outward).max() <= tolerance + 1e-12

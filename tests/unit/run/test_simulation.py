@@ -103,14 +103,17 @@ def test_loads_do_not_depend_on_how_steps_are_grouped():
         np.testing.assert_array_equal(getattr(parts.state.bodies, name), values, err_msg=name)
 
 
-def test_a_body_inside_a_structure_stops_the_run_and_both_are_named(tmp_path):
+def test_a_body_inside_a_structure_starts_no_run_and_both_are_named(tmp_path):
     spike = [[-3.0, -3.0, -3.0], [3.0, -3.0, -3.0], [0.0, 3.0, -3.0], [0.0, 0.0, 3.0]]
     case = case_of(
         structure=[{"kind": "pile", "name": "leg", "center": [1.0, 0.0], "radius": 0.3}],
         body=[{"vertices": spike, "dilated_radius": 0.1, "position": [1.0, 0.0, 0.0]}],
     )
-    with pytest.raises(SimulationStopped, match=r'body 0 at \(1\.00, 0\.00\) and structure "leg" overlap by \S+ m'):
+    with pytest.raises(CaseError, match=r'body 0 at \(1\.00, 0\.00\) and structure "leg", by \S+ m'):
         loop.run(case, tmp_path / "deep", quiet=True)
+    assert not (tmp_path / "deep").exists()
+    with pytest.raises(SimulationStopped, match=r'body 0 at \(1\.00, 0\.00\) and structure "leg" overlap by \S+ m'):
+        Simulation.of_case(case).step()
 
 
 def test_more_threads_than_the_machine_has_are_refused(tmp_path):
