@@ -15,6 +15,7 @@ from dilatedem.contact.consistent.point import elliptic, press_vertex
 from dilatedem.contact.consistent.rim import strongest_rim
 from dilatedem.contact.liu2015.patch import contact_patch
 from dilatedem.contact.search.closest import closest_points
+from dilatedem.contact.search.simplex import closest_on_triangle
 from dilatedem.contact.spring import carried_over, rescaled, slide, viscous_share
 from dilatedem.contact.turning import turn_shape
 from dilatedem.jit import device, kernel
@@ -33,7 +34,7 @@ def door(function):
     return call
 
 
-hertz_factor, line_law = door(elliptic), door(line_energy)
+hertz_factor, line_law, triangle_point = door(elliptic), door(line_energy), door(closest_on_triangle)
 carried_spring, rescaled_spring, slid_spring, share_of_dashpot = map(door, (carried_over, rescaled, slide, viscous_share))
 
 

@@ -3,6 +3,10 @@
 Every function returns the closest point and the weights of the corners (convex, zero where a corner does not matter). Corners are
 3-vectors as tuples. Inner regions are tried first; anything else falls back on the best of the edges, which stays right for
 slivers and repeated corners.
+
+The best of several edges or faces is the one whose point is closest with the corner that it leaves out, too. Distances alone cannot
+tell: those of two faces that are t rad from parallel differ by some t^2 of their size, which round-off hides for t below 1e-8,
+while the corner that the wrong one leaves out lies t times its size too near.
 """
 
 from math import sqrt
@@ -12,8 +16,35 @@ from dilatedem.numerics.vector import along, cross, dot, scale, sub
 
 #: squared sine below which three corners count as being in line; effect: such a triangle is treated as its edges
 COLLINEAR = 1e-20
+#: squared sine below which a triangle is a sliver; effect: above, the normal's error makes one of the distance of 1e-14 of the size
+SLIVER = 1e-4
 #: volume over product of edge lengths below which four corners count as coplanar; effect: it is treated as its faces
 COPLANAR = 1e-14
+
+
+@device
+def _left_before(c, w):
+    """How far corner w, which c's edge or face leaves out, lies before the plane through c square to c, times |c|; 0 behind."""
+    return max(dot(c, sub(c, w)), 0.0)
+
+
+@device
+def _better(before, d2, least_before, best):
+    """Whether a candidate is to be preferred: by what its left-out corner lies before it, then by its squared distance."""
+    return before < least_before or (before == least_before and d2 < best)
+
+
+@device
+def _on_plane(p, u, v, n, n2):
+    """The origin's projection on the plane through p with edges u, v of a triangle and normal n = u x v, of square n2."""
+    u2, v2 = dot(u, u), dot(v, v)
+    if n2 < SLIVER * u2 * v2:
+        # round-off of u x v leaves a sliver's normal oblique to its long edge: take that part out
+        if v2 > u2:
+            u, u2 = v, v2
+        n = along(n, -dot(n, u) / u2, u)
+        n2 = dot(n, n)
+    return scale(dot(p, n) * (1.0 / n2), n)
 
 
 @device
@@ -45,18 +76,18 @@ def closest_on_triangle(p, q, r):
         if wp >= 0.0 and wq >= 0.0 and wr >= 0.0:
             s = 1.0 / n2
             # along n, not by weights: the normal of a large face keeps full accuracy
-            return scale(dot(p, n) * s, n), wp * s, wq * s, wr * s
+            return _on_plane(p, u, v, n, n2), wp * s, wq * s, wr * s
     c, wp, wq = closest_on_segment(p, q)
     wr = 0.0
-    best = dot(c, c)
+    best, least = dot(c, c), _left_before(c, r)
     c2, s, t = closest_on_segment(q, r)
-    d2 = dot(c2, c2)
-    if d2 < best:
-        c, best, wp, wq, wr = c2, d2, 0.0, s, t
+    d2, before = dot(c2, c2), _left_before(c2, p)
+    if _better(before, d2, least, best):
+        c, best, least, wp, wq, wr = c2, d2, before, 0.0, s, t
     c2, s, t = closest_on_segment(p, r)
-    d2 = dot(c2, c2)
-    if d2 < best:
-        c, best, wp, wq, wr = c2, d2, s, 0.0, t
+    d2, before = dot(c2, c2), _left_before(c2, q)
+    if _better(before, d2, least, best):
+        c, best, least, wp, wq, wr = c2, d2, before, s, 0.0, t
     return c, wp, wq, wr
 
 
@@ -75,17 +106,17 @@ def closest_on_tetrahedron(p, q, r, s):
             return (0.0, 0.0, 0.0), wp, wq, wr, ws
     x, wp, wq, wr = closest_on_triangle(p, q, r)
     ws = 0.0
-    best = dot(x, x)
+    best, least = dot(x, x), _left_before(x, s)
     y, i, j, k = closest_on_triangle(p, q, s)
-    d2 = dot(y, y)
-    if d2 < best:
-        x, best, wp, wq, wr, ws = y, d2, i, j, 0.0, k
+    d2, before = dot(y, y), _left_before(y, r)
+    if _better(before, d2, least, best):
+        x, best, least, wp, wq, wr, ws = y, d2, before, i, j, 0.0, k
     y, i, j, k = closest_on_triangle(p, r, s)
-    d2 = dot(y, y)
-    if d2 < best:
-        x, best, wp, wq, wr, ws = y, d2, i, 0.0, j, k
+    d2, before = dot(y, y), _left_before(y, q)
+    if _better(before, d2, least, best):
+        x, best, least, wp, wq, wr, ws = y, d2, before, i, 0.0, j, k
     y, i, j, k = closest_on_triangle(q, r, s)
-    d2 = dot(y, y)
-    if d2 < best:
-        x, best, wp, wq, wr, ws = y, d2, 0.0, i, j, k
+    d2, before = dot(y, y), _left_before(y, p)
+    if _better(before, d2, least, best):
+        x, best, least, wp, wq, wr, ws = y, d2, before, 0.0, i, j, k
     return x, wp, wq, wr, ws
