@@ -96,6 +96,7 @@ def second_process(kind: Kind, folder: Path, way: str) -> str:
             return first.stderr.read().decode()
         time.sleep(0.005)
     os.kill(first.pid, signal.SIGSTOP)
+    os.waitid(os.P_PID, first.pid, os.WSTOPPED)
     try:
         second = subprocess.run(kind.command(out, *way.split()), env=environment(), capture_output=True, text=True, check=False)
     finally:
