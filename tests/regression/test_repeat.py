@@ -42,7 +42,8 @@ def test_overwriting_leaves_nothing_of_the_run_before(mixed, tmp_path):
     out = tmp_path / "out"
     loop.run(load(CASES / "crowded.toml", ["time.duration=0.5"]), out, quiet=True)
     (out / "figures").mkdir()
-    (out / "figures" / "old.png").touch()
+    for name in ("force_pile.png", "my_own.png"):
+        (out / "figures" / name).touch()
     loop.run(load(CASES / "mixed.toml"), out, overwrite=True, quiet=True)
     assert_same_run(out, mixed)
-    assert not list((out / "figures").iterdir())
+    assert [path.name for path in (out / "figures").iterdir()] == ["my_own.png"]

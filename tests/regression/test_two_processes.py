@@ -27,6 +27,7 @@ def test_a_second_process_is_refused_beside_a_live_run(way, crowded, tmp_path):
     out = tmp_path / "crowded"
     process = started(CASES / "crowded.toml", out)
     process.send_signal(signal.SIGSTOP)
+    os.waitid(os.P_PID, process.pid, os.WSTOPPED)  # until then its threads go on
     try:
         before = everything(out)
         second = in_process("run", CASES / "crowded.toml", "--out", out, way, "--quiet")

@@ -12,6 +12,7 @@ import re
 import subprocess
 import sys
 import tempfile
+from collections.abc import Iterator
 from pathlib import Path
 from random import Random
 
@@ -20,14 +21,15 @@ from validation.reliability.faults import COMMANDS
 from validation.reliability.kills import KINDS, kill_at_random, second_process
 
 HERE = Path(__file__).parent
-PARTS = ("kills", "two", "damages", "faults")
 FAULTS = ("ENOSPC", "EIO")
 WAYS = ("--resume", "--overwrite", "")
 
 
-def kills(folder: Path, given: argparse.Namespace) -> list[str]:
+def kills(folder: Path, given: argparse.Namespace) -> Iterator[str]:
     """A row a kind of run."""
-    random, rows = Random(1), []
+    yield "| case, sides | model | threads | runs | SIGKILLs | runs that differ |"
+    yield "| --- | --- | ---: | ---: | ---: | ---: |"
+    random = Random(given.seed)
     share = -(-given.kills // len(KINDS))
     for kind in KINDS:
         killed, runs, wrong = 0, 0, []
@@ -37,39 +39,37 @@ def kills(folder: Path, given: argparse.Namespace) -> list[str]:
             if differs:
                 wrong.append(differs)
         report(f"{kind}: {killed} kills, {len(wrong)} differ", wrong)
-        rows.append(f"| {kind.case}, {kind.sides} | `{kind.model}` | {kind.threads} | {runs} | {killed} | {len(wrong)} |")
-    head = "| case, sides | model | threads | runs | SIGKILLs | runs that differ |"
-    return [head, "| --- | --- | ---: | ---: | ---: | ---: |", *rows]
+        yield f"| {kind.case}, {kind.sides} | `{kind.model}` | {kind.threads} | {runs} | {killed} | {len(wrong)} |"
 
 
-def two(folder: Path, given: argparse.Namespace) -> list[str]:
+def two(folder: Path, given: argparse.Namespace) -> Iterator[str]:
     """A row a way to start the second process."""
-    rows = []
+    yield "| second process | tried | refused, the first unharmed |"
+    yield "| --- | ---: | ---: |"
     for way in WAYS:
         wrong = [said for said in (second_process(kind, folder, way) for kind in KINDS) if said]
         report(f"second process {way}: {len(wrong)} wrong", wrong)
-        rows.append(f"| `run {way}`".rstrip() + f" | {len(KINDS)} | {len(KINDS) - len(wrong)} |")
-    return ["| second process | tried | refused, the first unharmed |", "| --- | ---: | ---: |", *rows]
+        yield f"| `{' '.join(['run', way]).rstrip()}` | {len(KINDS)} | {len(KINDS) - len(wrong)} |"
 
 
-def damages(folder: Path, given: argparse.Namespace) -> list[str]:
+def damages(folder: Path, given: argparse.Namespace) -> Iterator[str]:
+    yield "| damaged restart.h5 | refused, nothing written | taken, results right | taken, results wrong | else |"
+    yield "| ---: | ---: | ---: | ---: | ---: |"
     found = in_a_process(folder, "damage", "restart.h5", given.damages)
     row = " | ".join(str(found[name]) for name in ("refused", "taken, results right", "taken, results wrong"))
-    head = "| damaged restart.h5 | refused, nothing written | taken, results right | taken, results wrong | else |"
-    return [head, "| ---: | ---: | ---: | ---: | ---: |", f"| {given.damages} | {row} | {len(found['wrong'])} |"]
+    yield f"| {given.damages} | {row} | {len(found['wrong'])} |"
 
 
-def faults(folder: Path, given: argparse.Namespace) -> list[str]:
+def faults(folder: Path, given: argparse.Namespace) -> Iterator[str]:
     """A row a command and a fault."""
-    rows = []
+    yield "| command | fault | one of | calls refused | exit code 0 | 2 | 3 | traceback, crash, or other files after going on |"
+    yield "| --- | --- | ---: | ---: | ---: | ---: | ---: | ---: |"
     for command in COMMANDS:
         for fault in FAULTS:
             every = given.post_every if command == "post" else given.every
             found = in_a_process(folder, command, fault, every)
             codes = " | ".join(str(found["codes"].get(code, 0)) for code in ("0", "2", "3"))
-            rows.append(f"| {command} | {fault} | {every} | {found['calls']} | {codes} | {len(found['wrong'])} |")
-    head = "| command | fault | one of | calls refused | exit code 0 | 2 | 3 | traceback, crash, or other files after going on |"
-    return [head, "| --- | --- | ---: | ---: | ---: | ---: | ---: | ---: |", *rows]
+            yield f"| {command} | {fault} | {every} | {found['calls']} | {codes} | {len(found['wrong'])} |"
 
 
 def in_a_process(folder: Path, *arguments) -> dict:
@@ -97,19 +97,26 @@ def write(part: str, rows: list[str]) -> None:
     page.write_text(re.sub(f"{re.escape(start)}.*?{re.escape(end)}", lambda _: between, text, flags=re.DOTALL), encoding="utf-8")
 
 
+PARTS = {"kills": kills, "two": two, "damages": damages, "faults": faults}
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--kills", type=int, default=100, help="SIGKILLs, shared among the kinds of runs")
+    parser.add_argument("--seed", type=int, default=1, help="of the moments of the kills")
     parser.add_argument("--damages", type=int, default=200, help="damaged restart.h5")
     parser.add_argument("--every", type=int, default=1, help="refuse one of so many calls")
     parser.add_argument("--post-every", type=int, default=1, help="the same for `post`, which takes longer")
-    parser.add_argument("--part", action="append", choices=PARTS, help="only these; again for more")
+    parser.add_argument("--part", action="append", choices=tuple(PARTS), help="only these; again for more")
     given = parser.parse_args()
     os.environ.setdefault("OMP_WAIT_POLICY", "PASSIVE")  # two threads that wait asleep, where other programs want the cores
     os.environ.setdefault("GOMP_SPINCOUNT", "0")
     for part in given.part or PARTS:
         with tempfile.TemporaryDirectory() as folder:
-            write(part, globals()[part](Path(folder), given))
+            rows: list[str] = []
+            for row in PARTS[part](Path(folder), given):
+                rows.append(row)
+                write(part, rows)  # row by row: all of them take an hour
 
 
 if __name__ == "__main__":

@@ -157,6 +157,7 @@ def test_wall_time_adds_up_over_the_parts_of_a_run_and_contains_the_compiling(tm
     first = json.loads((out / "summary.json").read_text())
     assert 0.0 < first["compile_s"] < first["wall_s"]
     assert first["steps_per_s"] == pytest.approx(first["steps"] / (first["wall_s"] - first["compile_s"]))
+    (out / "summary.json").write_text(json.dumps(first | {"status": "running"}))  # as if killed before its last words
     loop.run(case, out, resume=True, quiet=True)
     second = json.loads((out / "summary.json").read_text())
     assert second["wall_s"] > first["wall_s"] and second["compile_s"] > first["compile_s"]
