@@ -201,3 +201,25 @@ def test_what_a_folder_says_cannot_command_a_terminal(folder):
     (folder / "case.toml").write_text('title = "\\u001b[2J"\n')
     shown = CliRunner().invoke(app, ["info", str(folder)])
     assert shown.exit_code == 0 and "\x1b" not in shown.stdout and "\\x1b[2J" in shown.stdout
+
+
+@pytest.mark.parametrize(
+    ("rows", "expected"),
+    [
+        ("k,seed,run,pile_fx_max_N\n1,1,a,nan\n", f"sweep.csv: pile_fx_max_N = nan is no finite number{WAY_ON}"),
+        ("k,seed,run,pile_fx_max_N\n1,1,a,x\n", f"sweep.csv: pile_fx_max_N = x is no finite number{WAY_ON}"),
+        ("k,seed,run\n" + "x" * 200_000 + ",1,a\n", "sweep.csv: not the table of a sweep (field larger than field limit (131072))"),
+        ("a,b\n1,2\n", "sweep.csv: not the table of a sweep (it has no columns seed and run)"),
+    ],
+)
+def test_tables_of_sweeps_that_are_none(tmp_path, rows, expected):
+    (tmp_path / "sweep.csv").write_text(rows)
+    shown = CliRunner().invoke(app, ["info", str(tmp_path)])
+    assert (shown.exit_code, shown.stderr) == (2, f"{tmp_path}/{expected}\n")
+
+
+@pytest.mark.parametrize("value", ["9" * 5000, "[" * 3000, "\x00"])
+def test_values_of_sweeps_that_no_toml_holds_are_text(tmp_path, value):
+    (tmp_path / "sweep.csv").write_text(f'k,seed,run\n"{value}",1,a\n')
+    assert CliRunner().invoke(app, ["info", str(tmp_path)]).exit_code in (0, 2)
+    assert dilatedem.load(tmp_path).keys == ["k"]
