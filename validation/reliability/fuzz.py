@@ -1,6 +1,7 @@
 """What hostile cases and damaged folders do to the program: a sentence and an exit code, soon, and never a traceback.
 
-    python -m validation.reliability.fuzz [--checks 5000] [--runs 150] [--folders 80] [--seed 1] [--minutes M]
+    python -m validation.reliability.fuzz [--checks 5000] [--runs 150] [--folders 80] [--seed 1]
+                                           [--doors info,post,load] [--minutes M]
 
 from the root of the repository; each part ends after M minutes, with what it has tried. Cases are those of cases/ and tests/cases,
 mutated: values replaced by extreme ones or by ones of another type, keys misspelt, left out or invented, tables multiplied, or the
@@ -146,9 +147,9 @@ def _short(path: Path) -> list[str]:
     return [] if own else ["--set", f"time.duration={DURATION}"]
 
 
-def fuzz_folders(folder: Path, count: int, seed: int, until: float) -> dict[str, Tally]:
-    """`info`, `post` and `dilatedem.load` of run folders with one file damaged each."""
-    whole, tallies = folder / "whole", {name: Tally() for name in ("info", "post", "load")}
+def fuzz_folders(folder: Path, count: int, seed: int, until: float, doors: list[str]) -> dict[str, Tally]:
+    """`info`, `post` and `dilatedem.load` (those that are in `doors`) of run folders with one file damaged each."""
+    whole, tallies = folder / "whole", {name: Tally() for name in doors}
     run = ["run", "tests/cases/crowded.toml", "--out", str(whole), "--quiet", "--set", "time.duration=1"]
     code, _, said = in_fork(command(*run), 600.0)
     if code:
@@ -188,6 +189,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     for name, usual in (("checks", 5000), ("runs", 150), ("folders", 80), ("seed", 1)):
         parser.add_argument(f"--{name}", type=int, default=usual)
+    parser.add_argument("--doors", default="info,post,load", help="that damaged folders are taken to; post takes seconds")
     parser.add_argument("--minutes", type=float, default=math.inf)
     asked = parser.parse_args()
     if asked.runs or asked.folders:
@@ -206,7 +208,7 @@ def main() -> None:
         if asked.runs:
             tallies["`run` of extreme cases"] = fuzz_cases(random.Random(asked.seed + 1), folder, asked.runs, "run", until())
         if asked.folders:
-            damaged = fuzz_folders(folder, asked.folders, asked.seed, until())
+            damaged = fuzz_folders(folder, asked.folders, asked.seed, until(), asked.doors.split(","))
             tallies |= {f"`{name}` of damaged folders": tally for name, tally in damaged.items()}
         wrong = [line for tally in tallies.values() for line in tally.wrong]
         for line in wrong:
@@ -227,11 +229,12 @@ def write_page(tallies: dict[str, Tally], seed: int) -> None:
     rows = {line.split("|")[1].strip(): line for line in kept}
     for name, tally in tallies.items():
         counts = " | ".join(str(tally.codes[code]) for code in (0, 2, 3))
+        name += f", seed {seed}"
         rows[name] = f"| {name} | {tally.codes.total()} | {counts} | {tally.slowest:.1f} | {len(tally.wrong)} |"
     head = ["| what | tried | exit 0 | exit 2 | exit 3 | slowest, s | wrong |", "| --- | ---: | ---: | ---: | ---: | ---: | ---: |"]
     table = "\n".join([*head, *rows.values()])
     print(table)
-    results = f"dilatedem {dilatedem.__version__}, seed {seed}.\n\n{table}"
+    results = f"dilatedem {dilatedem.__version__}.\n\n{table}"
     PAGE.write_text(f"{before}{START}\n\n{results}\n\n{END}{after}", encoding="utf-8")
 
 

@@ -172,7 +172,7 @@ def test_summaries_of_another_kind_are_none(folder, junk):
 @pytest.mark.parametrize(
     "name",
     [
-        "load_map/pile/impulse_Ns", "load_map/pile/height_edges_m", "floes/outline_points", "floes/mass_kg",
+        "load_map/pile/impulse_Ns", "load_map/pile/height_edges_m", "floes/outline_points", "floes/outline_start", "floes/mass_kg",
         "contacts/ice_ice/steps", "contacts/ice_ice/max_force_N",
     ],
 )  # fmt: skip
@@ -223,3 +223,10 @@ def test_values_of_sweeps_that_no_toml_holds_are_text(tmp_path, value):
     (tmp_path / "sweep.csv").write_text(f'k,seed,run\n"{value}",1,a\n')
     assert CliRunner().invoke(app, ["info", str(tmp_path)]).exit_code in (0, 2)
     assert dilatedem.load(tmp_path).keys == ["k"]
+
+
+@pytest.mark.parametrize("value", ["x", np.full(4, np.nan), np.zeros((3, 1, 2)), np.arange(3)])
+def test_any_column_of_the_floes_belongs_to_the_floes(folder, value):
+    with h5py.File(folder / "run.h5", "a") as file:
+        file["floes/of_a_later_version"] = value
+    assert told(folder, lambda run: run.floes).startswith("run.h5: its contents cannot be read (floes: of_a_later_version ")
