@@ -17,6 +17,7 @@ from dilatedem.post.labels import flatten, show
 from dilatedem.post.loads import load_statistics
 from dilatedem.post.read import RunFolder, open_run
 from dilatedem.results.files import is_run
+from dilatedem.results.soundness import damaged
 from dilatedem.results.sweep import locate, parse_value, read_rows
 
 LOAD_COLUMN = re.compile(r"(?P<structure>.+)_(?P<quantity>f[xyzh]_(?:max|min|mean))_N")
@@ -73,7 +74,9 @@ def sweep_run(record: dict[str, str], keys: list[str], folder: Path) -> SweepRun
     for name, text in record.items():
         match = LOAD_COLUMN.fullmatch(name)
         if match and text:
-            loads.setdefault(match["structure"], {})[match["quantity"]] = to_float(text)
+            loads.setdefault(match["structure"], {})[match["quantity"]] = value = to_float(text)
+            if not math.isfinite(value):
+                raise damaged(folder / "sweep.csv", f"{name} = {text[:40]} is no finite number")
     seed = to_float(record["seed"])
     return SweepRun(
         values={key: parse_value(record[key]) for key in keys},

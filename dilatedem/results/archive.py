@@ -150,9 +150,11 @@ def read_contacts(parent: h5py.Group, group: h5py.Group) -> ContactStatistics:
 
 def read_floes(group: h5py.Group) -> FloeTable:
     points, start = require_array(group["outline_points"][()], (None, 2), "floes: outline_points"), group["outline_start"][()]
-    count = len(start) - 1
-    for name in ("plan_area_m2", "mass_kg"):
-        require_array(group[name][()], (count,), f"floes: {name}")
+    require_array(start, (None,), "floes: outline_start")
+    if start.dtype.kind == "f" or (np.diff(start) < 0).any() or not len(start) or start[0] != 0 or start[-1] != len(points):
+        raise ValueError("floes: outline_start does not tell where outlines begin")
+    for name in {"plan_area_m2", "mass_kg", *group} - OUTLINES:
+        require_array(group[name][()], (len(start) - 1,), f"floes: {name}")
     outlines = [points[first:last] for first, last in zip(start[:-1], start[1:], strict=True)]
     columns = {name: data[()] for name, data in group.items() if name not in OUTLINES}
     return FloeTable(outlines, group["plan_area_m2"][()], group["mass_kg"][()], columns)

@@ -189,6 +189,7 @@ def _not_numbers(column: Iterable[Any]) -> np.ndarray:
 
 def require_array(values: np.ndarray, shape: tuple[int | None, ...], what: str) -> np.ndarray:
     """`values` as finite numbers of this shape (None: any length). Raises ValueError that says `what` they are."""
+    values = np.asarray(values)
     if values.dtype.kind not in "iuf" or values.ndim != len(shape):
         raise ValueError(f"{what} holds no numbers of {len(shape)} dimensions")
     if any(wanted is not None and length != wanted for length, wanted in zip(values.shape, shape, strict=True)):

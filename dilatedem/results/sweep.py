@@ -107,7 +107,10 @@ def read_rows(folder: Path) -> tuple[list[str], list[dict[str, str]]]:
     """
     path = folder / "sweep.csv"
     text = path.read_text(encoding="utf-8", errors="replace")
-    lines = list(csv.reader(text.splitlines()))
+    try:
+        lines = list(csv.reader(text.splitlines()))
+    except csv.Error as error:
+        raise CaseError(f"{path}: not the table of a sweep ({error})") from error
     if not lines or "seed" not in lines[0] or "run" not in lines[0]:
         raise CaseError(f"{path}: not the table of a sweep (it has no columns seed and run)")
     header, *rows = lines
@@ -126,7 +129,7 @@ def parse_value(text: str) -> Any:
         return None
     try:
         return tomllib.loads(f"value = {text}")["value"]
-    except tomllib.TOMLDecodeError:
+    except (ValueError, RecursionError):  # no TOML, or numbers and nesting beyond what Python reads
         return text
 
 

@@ -14,6 +14,8 @@ LONGEST_SPAN = 1e-3
 LONGEST_STEP = 1e-3
 #: most steps in such a step; more would save next to nothing
 MOST_SPAN = 16
+#: steps that can be counted: up to here floating-point numbers are exact
+MOST_STEPS = 2.0**53
 #: steps in the time that all outputs have in common, at least, for the step to divide it; else it divides the force window alone
 SHORTEST_WINDOW = 16
 
@@ -21,8 +23,21 @@ SHORTEST_WINDOW = 16
 def time_step(case: Case, critical: float) -> float:
     """The step [s]: the case's own, or a share of the critical one that divides the force window, and all output where it can.
 
-    Raises CaseError for a step above the critical one.
+    Raises CaseError for a step above the critical one, and for one in which no step could be told from the next.
     """
+    if not critical > 0.0:
+        raise CaseError("no time step is short enough for these bodies: check their sizes, densities, moduli and velocities")
+    step = _time_step(case, critical)
+    longest = max(case.time.duration, *intervals(case))
+    if longest / step > MOST_STEPS:
+        raise CaseError(
+            f"the longest of time.duration and the intervals of [output], {longest:g} s, takes {longest / step:.2g} steps of "
+            f"{step:.2g} s; at most {MOST_STEPS:.2g} can be counted: shorten it, or check what makes the step so short"
+        )
+    return step
+
+
+def _time_step(case: Case, critical: float) -> float:
     if case.time.step != "auto":
         if case.time.step > critical:
             raise CaseError(

@@ -1,13 +1,16 @@
 """What hostile cases and damaged folders do to the program: a sentence and an exit code, soon, and never a traceback.
 
     python -m validation.reliability.fuzz [--checks 5000] [--runs 150] [--folders 80] [--seed 1]
+                                           [--doors info,post,load] [--minutes M]
 
-from the root of the repository. Cases are those of cases/ and tests/cases, mutated: values replaced by extreme ones or by ones of
-another type, keys misspelt, left out or invented, tables multiplied, or the text itself cut and stirred. Each command runs in a
-fork of this process, which has the kernels already, through the command line's own entry, under a time limit.
+from the root of the repository; each part ends after M minutes, with what it has tried. Cases are those of cases/ and tests/cases,
+mutated: values replaced by extreme ones or by ones of another type, keys misspelt, left out or invented, tables multiplied, or the
+text itself cut and stirred. Each command runs in a fork of this process, which has the kernels already, through the command line's
+own entry, under a time limit.
 """
 
 import argparse
+import math
 import os
 import random
 import shutil
@@ -112,10 +115,12 @@ def judge(tally: Tally, name: str, what: str, outcome: tuple[int, float, str]) -
         tally.wrong.append(f"{name} {what}: {', '.join(faults)} after {took:.1f} s: {said.strip().splitlines()[-1:]}")
 
 
-def fuzz_cases(rng: random.Random, folder: Path, count: int, name: str) -> Tally:
+def fuzz_cases(rng: random.Random, folder: Path, count: int, name: str, until: float) -> Tally:
     """`check` or `run` of mutated cases; those that are wrong stay in `folder`."""
     tally, texts = Tally(), [path.read_text(encoding="utf-8") for path in CASES]
     for number in range(count):
+        if time.monotonic() > until:
+            break
         text = rng.choice(texts)
         path = folder / f"{name}_{number:05d}.toml"
         path.write_bytes(mutated_text(rng, text) if name == "check" and rng.random() < 0.3 else mutated_values(rng, text))
@@ -142,14 +147,16 @@ def _short(path: Path) -> list[str]:
     return [] if own else ["--set", f"time.duration={DURATION}"]
 
 
-def fuzz_folders(folder: Path, count: int, seed: int) -> dict[str, Tally]:
-    """`info`, `post` and `dilatedem.load` of run folders with one file damaged each."""
-    whole, tallies = folder / "whole", {name: Tally() for name in ("info", "post", "load")}
+def fuzz_folders(folder: Path, count: int, seed: int, until: float, doors: list[str]) -> dict[str, Tally]:
+    """`info`, `post` and `dilatedem.load` (those that are in `doors`) of run folders with one file damaged each."""
+    whole, tallies = folder / "whole", {name: Tally() for name in doors}
     run = ["run", "tests/cases/crowded.toml", "--out", str(whole), "--quiet", "--set", "time.duration=1"]
     code, _, said = in_fork(command(*run), 600.0)
     if code:
         raise SystemExit(f"the run to be damaged ended with exit code {code}: {said}")
     for what, damage in damages(count, seed):
+        if time.monotonic() > until:
+            break
         for name, tally in tallies.items():
             copy = folder / "damaged"
             shutil.rmtree(copy, ignore_errors=True)
@@ -182,20 +189,26 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     for name, usual in (("checks", 5000), ("runs", 150), ("folders", 80), ("seed", 1)):
         parser.add_argument(f"--{name}", type=int, default=usual)
+    parser.add_argument("--doors", default="info,post,load", help="that damaged folders are taken to; post takes seconds")
+    parser.add_argument("--minutes", type=float, default=math.inf)
     asked = parser.parse_args()
-    for model in ("liu2015", "consistent"):
-        compile_kernels(model=model)
-    import dilatedem.post.folders  # noqa: F401  (once, here, and not in every fork)
+    if asked.runs or asked.folders:
+        for model in ("liu2015", "consistent"):
+            compile_kernels(model=model)
+        import dilatedem.post.folders  # noqa: F401  (once, here, and not in every fork)
+
+    def until() -> float:
+        return time.monotonic() + 60.0 * asked.minutes
 
     tallies: dict[str, Tally] = {}
     with tempfile.TemporaryDirectory() as place:
         folder = Path(place)
         if asked.checks:
-            tallies["`check` of mutated cases"] = fuzz_cases(random.Random(asked.seed), folder, asked.checks, "check")
+            tallies["`check` of mutated cases"] = fuzz_cases(random.Random(asked.seed), folder, asked.checks, "check", until())
         if asked.runs:
-            tallies["`run` of extreme cases"] = fuzz_cases(random.Random(asked.seed + 1), folder, asked.runs, "run")
+            tallies["`run` of extreme cases"] = fuzz_cases(random.Random(asked.seed + 1), folder, asked.runs, "run", until())
         if asked.folders:
-            damaged = fuzz_folders(folder, asked.folders, asked.seed)
+            damaged = fuzz_folders(folder, asked.folders, asked.seed, until(), asked.doors.split(","))
             tallies |= {f"`{name}` of damaged folders": tally for name, tally in damaged.items()}
         wrong = [line for tally in tallies.values() for line in tally.wrong]
         for line in wrong:
@@ -216,11 +229,12 @@ def write_page(tallies: dict[str, Tally], seed: int) -> None:
     rows = {line.split("|")[1].strip(): line for line in kept}
     for name, tally in tallies.items():
         counts = " | ".join(str(tally.codes[code]) for code in (0, 2, 3))
+        name += f", seed {seed}"
         rows[name] = f"| {name} | {tally.codes.total()} | {counts} | {tally.slowest:.1f} | {len(tally.wrong)} |"
     head = ["| what | tried | exit 0 | exit 2 | exit 3 | slowest, s | wrong |", "| --- | ---: | ---: | ---: | ---: | ---: | ---: |"]
     table = "\n".join([*head, *rows.values()])
     print(table)
-    results = f"dilatedem {dilatedem.__version__}, seed {seed}.\n\n{table}"
+    results = f"dilatedem {dilatedem.__version__}.\n\n{table}"
     PAGE.write_text(f"{before}{START}\n\n{results}\n\n{END}{after}", encoding="utf-8")
 
 

@@ -172,7 +172,7 @@ def test_summaries_of_another_kind_are_none(folder, junk):
 @pytest.mark.parametrize(
     "name",
     [
-        "load_map/pile/impulse_Ns", "load_map/pile/height_edges_m", "floes/outline_points", "floes/mass_kg",
+        "load_map/pile/impulse_Ns", "load_map/pile/height_edges_m", "floes/outline_points", "floes/outline_start", "floes/mass_kg",
         "contacts/ice_ice/steps", "contacts/ice_ice/max_force_N",
     ],
 )  # fmt: skip
@@ -201,3 +201,32 @@ def test_what_a_folder_says_cannot_command_a_terminal(folder):
     (folder / "case.toml").write_text('title = "\\u001b[2J"\n')
     shown = CliRunner().invoke(app, ["info", str(folder)])
     assert shown.exit_code == 0 and "\x1b" not in shown.stdout and "\\x1b[2J" in shown.stdout
+
+
+@pytest.mark.parametrize(
+    ("rows", "expected"),
+    [
+        ("k,seed,run,pile_fx_max_N\n1,1,a,nan\n", f"sweep.csv: pile_fx_max_N = nan is no finite number{WAY_ON}"),
+        ("k,seed,run,pile_fx_max_N\n1,1,a,x\n", f"sweep.csv: pile_fx_max_N = x is no finite number{WAY_ON}"),
+        ("k,seed,run\n" + "x" * 200_000 + ",1,a\n", "sweep.csv: not the table of a sweep (field larger than field limit (131072))"),
+        ("a,b\n1,2\n", "sweep.csv: not the table of a sweep (it has no columns seed and run)"),
+    ],
+)
+def test_tables_of_sweeps_that_are_none(tmp_path, rows, expected):
+    (tmp_path / "sweep.csv").write_text(rows)
+    shown = CliRunner().invoke(app, ["info", str(tmp_path)])
+    assert (shown.exit_code, shown.stderr) == (2, f"{tmp_path}/{expected}\n")
+
+
+@pytest.mark.parametrize("value", ["9" * 5000, "[" * 3000, "\x00"])
+def test_values_of_sweeps_that_no_toml_holds_are_text(tmp_path, value):
+    (tmp_path / "sweep.csv").write_text(f'k,seed,run\n"{value}",1,a\n')
+    assert CliRunner().invoke(app, ["info", str(tmp_path)]).exit_code in (0, 2)
+    assert dilatedem.load(tmp_path).keys == ["k"]
+
+
+@pytest.mark.parametrize("value", ["x", np.full(4, np.nan), np.zeros((3, 1, 2)), np.arange(3)])
+def test_any_column_of_the_floes_belongs_to_the_floes(folder, value):
+    with h5py.File(folder / "run.h5", "a") as file:
+        file["floes/of_a_later_version"] = value
+    assert told(folder, lambda run: run.floes).startswith("run.h5: its contents cannot be read (floes: of_a_later_version ")

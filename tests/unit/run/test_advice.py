@@ -6,6 +6,7 @@ import pytest
 from typer.testing import CliRunner
 
 from dilatedem.cli import app
+from dilatedem.errors import CaseError
 from dilatedem.run.foretell import check
 from dilatedem.run.simulation import Simulation
 
@@ -129,6 +130,20 @@ def test_a_structure_that_bears_weight_alone_is_touched(tmp_path, monkeypatch):
     assert done.exit_code == 0 and done.stdout.endswith("; no horizontal load on plane\n")
     summary = json.loads((tmp_path / "runs/case/summary.json").read_text())
     assert summary["message"] == "" and summary["loads"]["plane"]["touched"] is True
+
+
+@pytest.mark.parametrize(
+    "tables",
+    [
+        {"time": {"duration": 1e10, "step": 1e-12}},
+        {"time": {"duration": 1e10}, "ice": {"elastic_modulus": 1e21}},
+        {"output": {"track": "all", "track_interval": 1e10}, "time": {"step": 1e-9}},
+    ],
+)
+def test_more_steps_than_can_be_counted(tables):
+    sentence = r"^the longest of time.duration and the intervals of \[output\], 1e\+10 s, takes .* steps of "
+    with pytest.raises(CaseError, match=sentence):
+        Simulation.from_case({**FIELD, **tables})
 
 
 def test_check_gives_warnings_to_python():
