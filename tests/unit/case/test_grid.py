@@ -68,9 +68,9 @@ def test_a_switch_is_no_number():
 
 
 def test_a_hundred_thousand_values_take_no_time():
-    began = time.perf_counter()
+    began = time.process_time()
     assert len(axis("k=1:100000:1").values) == 100_000
-    assert time.perf_counter() - began < 5.0
+    assert time.process_time() - began < 5.0
 
 
 def test_seeds_that_cannot_be_meant():

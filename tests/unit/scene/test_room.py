@@ -11,10 +11,10 @@ from dilatedem.scene.place import compose
 
 
 def refused(**tables) -> str:
-    began = time.perf_counter()
+    began = time.process_time()
     with pytest.raises(CaseError) as caught:
         compose(case_from(tables, {}))
-    assert time.perf_counter() - began < 2.0
+    assert time.process_time() - began < 2.0
     return str(caught.value)
 
 
@@ -47,6 +47,6 @@ def test_domains_narrower_than_their_floes(size, boundary):
 
 
 def test_the_narrowest_domain_is_built_soon():
-    began = time.perf_counter()
+    began = time.process_time()
     compose(case_from({"domain": {"size": [16.0 * 200, 1.0]}, "field": {"floe_count": 200}, "ice": {"dilated_radius": 1e-4}}, {}))
-    assert time.perf_counter() - began < 10.0
+    assert time.process_time() - began < 10.0
