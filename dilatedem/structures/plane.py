@@ -1,5 +1,6 @@
 """An unbounded plane: a wall, a slope, a sea bed."""
 
+import math
 from typing import Literal
 
 import numpy as np
@@ -45,7 +46,7 @@ class Plane(Structure):
     poisson_ratio: PoissonRatio = ratio_key()
 
     def faults(self) -> list[Fault]:
-        length = float(norm(self.normal))
+        length = math.hypot(*self.normal)  # of lengths whose squares vanish, too
         if length < SHORTEST_NORMAL:
             shorter = f", nor shorter than {SHORTEST_NORMAL:g}" if length > 0.0 else ""
             return [(("normal",), f"must not be zero{shorter}: it points from the plane towards the ice")]

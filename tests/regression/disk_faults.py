@@ -22,7 +22,7 @@ checkpoint_interval = 0.02
 track = "all"
 [[structure]]
 kind = "pile"
-center = [3.4, 0.0]
+center = [3.505, 1.0]
 [[body]]
 outline = [[0.0, 0.0], [1.5, 0.0], [1.5, 2.0], [0.0, 2.0]]
 velocity = [0.5, 0.0, 0.0]
