@@ -152,7 +152,7 @@ def test_a_run_whose_terminal_is_gone_goes_on(tmp_path):
     assert json.loads((tmp_path / "out" / "summary.json").read_text())["status"] == "completed"
 
 
-SWEEP = ["sweep", CASES / "crowded.toml", "--vary", "contact.friction=0.1,0.2", "--jobs", "2", "--set", "time.duration=60.0"]
+SWEEP = ["sweep", CASES / "crowded.toml", "--vary", "contact.friction=0.1,0.2", "--jobs", "2", "--set", "time.duration=3000.0"]
 
 
 def test_the_cases_of_a_killed_sweep_save_their_state_and_end(tmp_path):
