@@ -142,6 +142,13 @@ def test_verdicts_need_enough_fields_and_the_right_side():
     assert words(full(3), "more steadily") == {trends.OPEN}
 
 
+def test_what_is_not_tested_costs_the_others_nothing():
+    both = full(10)
+    alone = Ensemble([result for result in both.results if result.run.model == "liu2015" or result.run.seed < 3])
+    of_both, of_one = ([v.p for v in trends.verdicts(e) if "steadily" in v.finding.trend] for e in (both, alone))
+    assert of_one[0] == pytest.approx(0.5 * of_both[0], rel=1e-6) and math.isnan(of_one[1])
+
+
 def test_runs_of_different_sources_are_not_compared(tmp_path):
     (tmp_path / "README.md").write_text("as it was", encoding="utf-8")
     mixed = results(lambda run: {}, 1, "a") + results(lambda run: {}, 1, "b")

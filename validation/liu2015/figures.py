@@ -101,11 +101,11 @@ def draw_around(axes: Axes, found: list[Result], model: str) -> float:
 
 
 def dress_polar(axes: Axes, top: float) -> None:
-    """The upstream half shaded, angles as in the plan view."""
+    """The upstream half shaded; directions as in the plan view, angles counter-clockwise from upstream as everywhere."""
     rings = MaxNLocator(4, steps=[1, 2, 2.5, 5, 10]).tick_values(0.0, top or 1.0)
     axes.set_ylim(0.0, rings[-1])
     axes.fill_between(np.radians(np.linspace(90.0, 270.0, 91)), 0.0, rings[-1], color=SKY, alpha=0.16, linewidth=0, zorder=0)
-    axes.set_thetagrids(range(0, 360, 45), labels=["0°", "45°", "90°", "135°", "±180°", "−135°", "−90°", "−45°"])
+    axes.set_thetagrids(range(0, 360, 45), labels=["±180°", "−135°", "−90°", "−45°", "0°", "45°", "90°", "135°"])
     axes.set_rticks(rings[1:-1])
     axes.set_rlabel_position(22.5)
     axes.text(np.pi, 1.02 * rings[-1], "upstream\n\n", ha="right", va="center", fontsize=8.0)

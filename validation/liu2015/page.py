@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import subprocess
 from collections import Counter
 from pathlib import Path
@@ -10,7 +11,7 @@ from statistics import median
 from validation.liu2015 import figures, figures_ice, figures_speed
 from validation.liu2015.ice import DRIFT
 from validation.liu2015.measures import EQUAL_DRIFT, Ensemble
-from validation.liu2015.plan import LARGE, SIZE_SPEED, SMALL, plan
+from validation.liu2015.plan import LARGE, MODELS, SIZE_SPEED, SMALL, plan
 from validation.liu2015.runner import PACKAGE, source_digest
 from validation.liu2015.similarity import BREAK, SAME_HIT, likeness
 from validation.liu2015.statistics import CONFIDENCE, FEWEST, LEVEL, RESAMPLES
@@ -69,6 +70,11 @@ def provenance(ensemble: Ensemble) -> list[str]:
     residual = max(result.measures["residual_over_work"] for result in ensemble.results)
     whole = "All" if count == len(planned) else f"{count} of the"
     lines = [f"{whole} {len(planned)} runs of the plan, of {', '.join(durations)} s each."]
+    if count < len(planned):
+        done = Counter(result.run.model for result in ensemble.results if result.run in planned)
+        of = Counter(run.model for run in planned)
+        parts = ", ".join(f"{done[model]} of {of[model]} with `{model}`" for model in MODELS)
+        lines.append(f"**The rest is still to do**: there are {parts}.")
     if extra := len(ensemble.results) - count:
         lines.append(f"{extra} further runs beside the plan.")
     if not state:
@@ -95,7 +101,7 @@ def step_check(ensemble: Ensemble) -> list[str]:
 def trends(ensemble: Ensemble) -> list[str]:
     """How things were tested, then a verdict a trend and model, with the figures behind it."""
     judged = verdicts(ensemble)
-    count = sum(verdict.finding.test is not None for verdict in judged)
+    count = sum(math.isfinite(verdict.p) for verdict in judged)
     rule = (
         f"One level for the whole page: {100.0 * LEVEL:g} % for the {count} tests of this table together, by Holm's method; p is "
         "what is left after that correction. Tests are two-sided: between floe sizes Mann & Whitney's, over the fields of one "
@@ -105,7 +111,7 @@ def trends(ensemble: Ensemble) -> list[str]:
         "*follows from the set-up*: no other outcome was possible, so it is no evidence for the model, nor against the paper. "
         f"In brackets: {100.0 * CONFIDENCE:g} % bands of single numbers, here and below, from {RESAMPLES} bootstrap samples of the "
         "fields (expanded percentiles, which cannot leave the range of the data); they are not corrected for their number, and no "
-        f"verdict rests on them. None is given of fewer than {FEWEST} fields."
+        f"verdict rests on them. Of fewer than {FEWEST} fields neither test nor band is given."
     )
     lines = ["### Trends of the paper", "", rule, ""]
     lines += [row("trend", "asked of the runs", "model", "verdict", "p", "figures"), row(*["---"] * 6)]

@@ -12,6 +12,7 @@ from validation.liu2015.measures import FIRST_HITS, JAM, Ensemble
 from validation.liu2015.plan import CASES, LARGE, SIZE_SPEED, SMALL
 from validation.liu2015.similarity import BREAK, likeness
 from validation.liu2015.statistics import (
+    FEWEST,
     LEVEL,
     Band,
     Test,
@@ -45,7 +46,7 @@ class Finding:
 
 @dataclass(frozen=True)
 class Verdict:
-    """p: corrected for all tests of the page; nan where there was none."""
+    """p: corrected for all tests of the page; nan where none was made."""
 
     finding: Finding
     word: str
@@ -185,16 +186,22 @@ def jam(ensemble: Ensemble, model: str) -> Finding:
 TRENDS = (rises_with_speed, faster_above, softer, steadier, jam_fluctuates, pulses, smaller_across, upstream, lane, jam)
 
 
+def enough(ensemble: Ensemble, model: str) -> bool:
+    """Have both floe sizes been run with so many fields that a test could find something?"""
+    return all(len(ensemble.chosen(model, size, SIZE_SPEED)) >= FEWEST for size in CASES)
+
+
 def verdicts(ensemble: Ensemble) -> list[Verdict]:
     """Every trend with every model, judged at one level for all tests together."""
     found = [check(ensemble, model) for check in TRENDS for model in ensemble.models]
-    corrected = iter(holm([finding.test.p for finding in found if finding.test]))
+    tested = [finding for finding in found if finding.test and enough(ensemble, finding.model)]
+    chances = dict(zip(map(id, tested), holm([finding.test.p for finding in tested]), strict=True))
     judged = []
     for finding in found:
         if finding.test is None:
             judged.append(Verdict(finding, SETUP, math.nan))
             continue
-        p = next(corrected)
+        p = chances.get(id(finding), math.nan)
         word = OPEN if not p < LEVEL else AGREES if finding.test.towards else DISAGREES
         judged.append(Verdict(finding, word, p))
     return judged
