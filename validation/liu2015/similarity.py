@@ -10,7 +10,7 @@ import numpy as np
 
 from validation.liu2015.measures import Ensemble
 from validation.liu2015.plan import LARGE
-from validation.liu2015.statistics import RESAMPLES, Band, band, complete_rows, drawn, exponents, percentiles
+from validation.liu2015.statistics import FEWEST, RESAMPLES, Band, band, complete_rows, drawn, exponents, percentiles
 
 #: m/s above which the paper sees the force grow faster
 BREAK = 0.7
@@ -78,11 +78,13 @@ def least_correlation(speeds: np.ndarray, logs: np.ndarray) -> tuple[Band, tuple
     table = np.corrcoef(logs.T)
     pairs = list(combinations(range(len(speeds)), 2))
     a, b = min(pairs, key=lambda pair: table[pair])
+    median = float(np.median([table[pair] for pair in pairs]))
+    if len(logs) < FEWEST:
+        return Band(len(logs), float(table[a, b]), math.nan, math.nan), (float(speeds[a]), float(speeds[b])), median
     draws = drawn(len(logs))
     x, y = logs[draws, a], logs[draws, b]
     x, y = x - x.mean(axis=1, keepdims=True), y - y.mean(axis=1, keepdims=True)
     size = np.sqrt((x**2).sum(axis=1) * (y**2).sum(axis=1))
     resampled = np.divide((x * y).sum(axis=1), size, out=np.full(RESAMPLES, math.nan), where=size > 0.0)
     low, high = percentiles(resampled, len(logs))
-    median = float(np.median([table[pair] for pair in pairs]))
     return Band(len(logs), float(table[a, b]), low, high), (float(speeds[a]), float(speeds[b])), median

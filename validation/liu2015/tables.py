@@ -54,7 +54,7 @@ def loads(ensemble: Ensemble) -> list[str]:
         "",
         f"Highest horizontal force of the first {EQUAL_DRIFT:g} m of drift: Gumbel's law, fitted to one value a field by most "
         "likelihood. r: correlation of the values with the law's quantiles. Of n fields the scale comes out too small by some "
-        "0.7/n of itself.",
+        "0.8/n of itself.",
         "",
         *head("model", "floes, m", "speed, m/s", "n", *GUMBEL_HEADS, f"mean Fx of the first {EQUAL_DRIFT:g} m, kN"),
     ]
