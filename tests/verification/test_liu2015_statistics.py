@@ -71,6 +71,16 @@ def test_gumbels_law_of_many_fields_is_what_they_were_drawn_from():
     assert law.correlation > 0.99
 
 
+@pytest.mark.parametrize("count", [5, 7])
+def test_few_fields_get_no_band_of_their_scatter(count):
+    """The scale of five equal values is 0, and one resample of 625 is such."""
+    law = statistics.gumbel(FIELDS[:count])
+    assert math.isfinite(law.scale.value) and math.isnan(law.scale.low)
+    few = Ensemble([result for result in similar(lambda v: v**1.2).results if result.run.seed <= count])
+    like = likeness(few, "liu2015")
+    assert math.isnan(like.correlation.low) and like.exponent.low <= 1.2 + 1e-9 <= like.exponent.high + 2e-9
+
+
 def test_holms_correction_by_hand():
     assert statistics.holm([0.01, 0.04, 0.03]) == pytest.approx([0.03, 0.06, 0.06])
     assert statistics.holm([0.9, 0.6]) == [1.0, 1.0]

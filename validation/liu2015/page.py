@@ -14,7 +14,7 @@ from validation.liu2015.measures import EQUAL_DRIFT, Ensemble
 from validation.liu2015.plan import LARGE, MODELS, SIZE_SPEED, SMALL, plan
 from validation.liu2015.runner import PACKAGE, source_digest
 from validation.liu2015.similarity import BREAK, SAME_HIT, likeness
-from validation.liu2015.statistics import CONFIDENCE, FEWEST, LEVEL, RESAMPLES
+from validation.liu2015.statistics import CONFIDENCE, FEWEST, FEWEST_SCATTER, LEVEL, RESAMPLES
 from validation.liu2015.tables import row, tables
 from validation.liu2015.trends import banded, chance, number, verdicts
 
@@ -111,7 +111,8 @@ def trends(ensemble: Ensemble) -> list[str]:
         "*follows from the set-up*: no other outcome was possible, so it is no evidence for the model, nor against the paper. "
         f"In brackets: {100.0 * CONFIDENCE:g} % bands of single numbers, here and below, from {RESAMPLES} bootstrap samples of the "
         "fields (expanded percentiles, which cannot leave the range of the data); they are not corrected for their number, and no "
-        f"verdict rests on them. Of fewer than {FEWEST} fields neither test nor band is given."
+        f"verdict rests on them. Of fewer than {FEWEST} fields neither test nor band is given, of fewer than {FEWEST_SCATTER} no "
+        "band of a correlation or of Gumbel's law."
     )
     lines = ["### Trends of the paper", "", rule, ""]
     lines += [row("trend", "asked of the runs", "model", "verdict", "p", "figures"), row(*["---"] * 6)]

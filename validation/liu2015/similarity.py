@@ -10,7 +10,7 @@ import numpy as np
 
 from validation.liu2015.measures import Ensemble
 from validation.liu2015.plan import LARGE
-from validation.liu2015.statistics import FEWEST, RESAMPLES, Band, band, complete_rows, drawn, exponents, percentiles
+from validation.liu2015.statistics import FEWEST_SCATTER, RESAMPLES, Band, band, complete_rows, drawn, exponents, percentiles
 
 #: m/s above which the paper sees the force grow faster
 BREAK = 0.7
@@ -79,7 +79,7 @@ def least_correlation(speeds: np.ndarray, logs: np.ndarray) -> tuple[Band, tuple
     pairs = list(combinations(range(len(speeds)), 2))
     a, b = min(pairs, key=lambda pair: table[pair])
     median = float(np.median([table[pair] for pair in pairs]))
-    if len(logs) < FEWEST:
+    if len(logs) < FEWEST_SCATTER:
         return Band(len(logs), float(table[a, b]), math.nan, math.nan), (float(speeds[a]), float(speeds[b])), median
     draws = drawn(len(logs))
     x, y = logs[draws, a], logs[draws, b]

@@ -14,8 +14,10 @@ CONFIDENCE = 0.95
 #: the chance, over all tests of the page together, of one effect that is none
 LEVEL = 0.05
 RESAMPLES = 10_000  # of the bootstrap; the same draws every time
-#: with fewer values no band is given
+#: with fewer values no band of a mean is given
 FEWEST = 5
+#: ... nor one of what scatter itself makes, as a scale or a correlation: too many resamples hold one or two values, and so none
+FEWEST_SCATTER = 8
 #: share of fields whose highest load stays below the quantile that is quoted: one of ten exceeds it
 QUOTED = 0.9
 #: halvings of the interval that Gumbel's scale is searched in: down to round-off
@@ -121,7 +123,7 @@ def gumbel(values: Iterable[float]) -> Gumbel:
     if not len(sample):
         return Gumbel(*[Band(0, math.nan, math.nan, math.nan)] * 3, math.nan)
     estimates = [one[0] for one in quantities(sample[None, :])]
-    if len(sample) < FEWEST:
+    if len(sample) < FEWEST_SCATTER:
         return Gumbel(*(Band(len(sample), float(value), math.nan, math.nan) for value in estimates), math.nan)
     resampled = quantities(sample[drawn(len(sample))])
     bands = [
@@ -144,7 +146,7 @@ def ratio_band(over: Iterable[float], under: Iterable[float], estimate: Callable
     if not count:
         return Band(0, math.nan, math.nan, math.nan)
     value = float(estimate(a[None, :])[0] / estimate(b[None, :])[0])
-    if count < FEWEST:
+    if count < FEWEST_SCATTER:
         return Band(count, value, math.nan, math.nan)
     return Band(count, value, *percentiles(estimate(a[drawn(len(a), 1)]) / estimate(b[drawn(len(b), 2)]), count))
 
