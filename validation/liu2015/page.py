@@ -74,7 +74,7 @@ def provenance(ensemble: Ensemble) -> list[str]:
         done = Counter(result.run.model for result in ensemble.results if result.run in planned)
         of = Counter(run.model for run in planned)
         parts = ", ".join(f"{done[model]} of {of[model]} with `{model}`" for model in MODELS)
-        lines.append(f"**The rest is still to do**: there are {parts}.")
+        lines.append(f"**The rest is still to do**: there are {parts}. It brings more tests, so that p may rise.")
     if extra := len(ensemble.results) - count:
         lines.append(f"{extra} further runs beside the plan.")
     if not state:

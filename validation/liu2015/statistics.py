@@ -120,8 +120,8 @@ def location_of_rows(samples: np.ndarray) -> np.ndarray:
 def gumbel(values: Iterable[float]) -> Gumbel:
     """Gumbel's law of the highest loads of independent fields."""
     sample = finite(values)
-    if not len(sample):
-        return Gumbel(*[Band(0, math.nan, math.nan, math.nan)] * 3, math.nan)
+    if len(sample) < 3:
+        return Gumbel(*[Band(len(sample), math.nan, math.nan, math.nan)] * 3, math.nan)
     estimates = [one[0] for one in quantities(sample[None, :])]
     if len(sample) < FEWEST_SCATTER:
         return Gumbel(*(Band(len(sample), float(value), math.nan, math.nan) for value in estimates), math.nan)
