@@ -10,8 +10,8 @@ from matplotlib.ticker import LogLocator, NullLocator
 from dilatedem.post.canvas import new_figure, styled
 from validation.liu2015.figures import APART, COLOUR, MARKER
 from validation.liu2015.measures import EQUAL_DRIFT, Ensemble
-from validation.liu2015.plan import LARGE, MODELS
-from validation.liu2015.similarity import BREAK, HIGHEST, MEAN, Likeness, likeness
+from validation.liu2015.plan import MODELS
+from validation.liu2015.similarity import BREAK, Likeness, likeness
 from validation.liu2015.statistics import Band, band, gumbel
 
 #: m/s; highest forces of a field at other speeds are drawn over that at this one
@@ -27,8 +27,8 @@ def force_by_speed(ensemble: Ensemble) -> Figure | None:
     figure = new_figure(9.4, 7.2)
     panels = figure.subplots(2, 2)
     for model, like in found.items():
-        draw_highest(panels[0, 0], ensemble, model, like)
-        draw_mean(panels[0, 1], ensemble, model, like)
+        draw_highest(panels[0, 0], model, like)
+        draw_mean(panels[0, 1], model, like)
         draw_likeness(panels[1, 0], model, like)
         draw_exponents(panels[1, 1], model, like)
     first = f"first {EQUAL_DRIFT:g} m of drift"
@@ -40,7 +40,7 @@ def force_by_speed(ensemble: Ensemble) -> Figure | None:
         axes.set_ylabel(label)
         axes.set_title(title)
     speed = np.array([0.3, 1.0])
-    level = 1.6 * max(mean_bands(ensemble, model, like)[-1].value for model, like in found.items())
+    level = 1.6 * max(float((like.mean[:, -1] / like.speeds[-1] ** 2).mean()) for like in found.values()) / 1e3
     panels[0, 1].plot(speed, level * speed**2, "k--", linewidth=0.9, label="v²")
     panels[0, 1].legend(loc="lower right")
     dress_likeness(panels[1, 0])
@@ -69,29 +69,18 @@ def log_speeds(axes: Axes, speeds: np.ndarray) -> None:
     axes.grid(True)
 
 
-def draw_highest(axes: Axes, ensemble: Ensemble, model: str, like: Likeness) -> None:
+def draw_highest(axes: Axes, model: str, like: Likeness) -> None:
     """A line a field, and Gumbel's location with its band."""
     axes.plot(like.speeds, like.highest.T / 1e3, color=COLOUR[model], alpha=0.35, linewidth=0.8, zorder=2)
-    bands = [gumbel(ensemble.of(HIGHEST, model, LARGE, speed).values()).location for speed in like.speeds]
+    bands = [gumbel(forces).location for forces in like.highest.T]
     label = f"{model}: thin: a field each (n = {like.fields}); thick: all, with 95 % band"
     draw_bands(axes, like.speeds, bands, model, label)
 
 
-def mean_bands(ensemble: Ensemble, model: str, like: Likeness) -> list[Band]:
-    return [scaled(band(ensemble.of(MEAN, model, LARGE, speed).values()), 1e-3) for speed in like.speeds]
-
-
-def draw_mean(axes: Axes, ensemble: Ensemble, model: str, like: Likeness) -> None:
-    bands = mean_bands(ensemble, model, like)
-    draw_bands(axes, like.speeds * (1.0 + APART[model]), [scaled(one, 1e3) for one in bands], model, None)
-    rows = [ensemble.of(MEAN, model, LARGE, speed) for speed in like.speeds]
-    for seed in sorted(rows[0]):
-        forces = [row.get(seed, np.nan) / 1e3 for row in rows]
-        axes.plot(like.speeds, forces, color=COLOUR[model], alpha=0.3, linewidth=0.8, zorder=2)
-
-
-def scaled(one: Band, factor: float) -> Band:
-    return Band(one.n, factor * one.value, factor * one.low, factor * one.high)
+def draw_mean(axes: Axes, model: str, like: Likeness) -> None:
+    place = like.speeds * (1.0 + APART[model])
+    axes.plot(place, like.mean.T / 1e3, color=COLOUR[model], alpha=0.3, linewidth=0.8, zorder=2)
+    draw_bands(axes, place, [band(forces) for forces in like.mean.T], model, None)
 
 
 def draw_bands(axes: Axes, place: np.ndarray, bands: list[Band], model: str, label: str | None) -> None:

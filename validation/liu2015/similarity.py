@@ -24,7 +24,8 @@ class Likeness:
     """What the speeds of one model have in common, at equal drift."""
 
     speeds: np.ndarray  # (k,) [m/s]
-    highest: np.ndarray  # (seeds, k) [N]
+    highest: np.ndarray  # (seeds, k) [N], of the fields that were run at all speeds
+    mean: np.ndarray  # (seeds, k) [N], along x
     exponent: Band  # of the highest force over all speeds
     local: list[Band]  # of the highest force, between a speed and the next
     change: Band  # of the exponent, from below to above BREAK
@@ -60,6 +61,7 @@ def likeness(ensemble: Ensemble, model: str) -> Likeness | None:
     return Likeness(
         speeds=speeds,
         highest=highest,
+        mean=mean,
         exponent=band(exponents(speeds, highest)),
         local=[band(exponents(speeds[i : i + 2], highest[:, i : i + 2])) for i in range(len(speeds) - 1)],
         change=band(exponents(speeds[high], highest[:, high]) - exponents(speeds[low], highest[:, low])),
