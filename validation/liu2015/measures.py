@@ -76,9 +76,11 @@ def load_measures(folder: RunFolder) -> dict[str, float]:
     measures = {
         "fh_max_N": peak,
         "fh_max_equal_drift_N": float(highest[early].max(initial=0.0)),
+        "fh_max_equal_drift_at_m": float(drifted[early][np.argmax(highest[early])]) if np.any(early) else math.nan,
         "fx_max_N": statistics["fx"]["max_N"],
         "fx_min_N": statistics["fx"]["min_N"],
         "fx_mean_N": statistics["fx"]["mean_N"],
+        "fx_mean_equal_drift_N": float(np.average(fx[early], weights=lengths[early])) if np.any(early) else math.nan,
         "fx_mean_passing_N": float(np.average(fx[passing], weights=lengths[passing])),
         "fx_impulse_Ns": statistics["fx"]["impulse_Ns"],
         "fx_p99_of_means_N": float(np.percentile(fx, 99.0)),

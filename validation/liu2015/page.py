@@ -1,34 +1,37 @@
-"""The part of the README that is made from the runs: verdicts, figures, tables, and what the runs were made with."""
+"""The part of the README that is made from the runs: what they were made with, verdicts, likeness of speeds, figures, tables."""
 
 from __future__ import annotations
 
+import math
+import subprocess
 from collections import Counter
 from pathlib import Path
 from statistics import median
 
-from validation.liu2015 import figures, figures_ice
-from validation.liu2015.ice import DRIFT, STRIP
-from validation.liu2015.measures import COARSE, EQUAL_DRIFT, PASSING_DRIFT, Ensemble
-from validation.liu2015.plan import CASES, LARGE, SIZE_SPEED, SMALL
-from validation.liu2015.statistics import FEWEST, RESAMPLES, mean_band, median_band, paired
-from validation.liu2015.trends import AGREES, DISAGREES, FEW, FEWEST_SEEDS, OPEN, SIGNIFICANT, banded, chance, findings, number
+from validation.liu2015 import figures, figures_ice, figures_speed
+from validation.liu2015.ice import DRIFT
+from validation.liu2015.measures import EQUAL_DRIFT, Ensemble
+from validation.liu2015.plan import LARGE, MODELS, SIZE_SPEED, SMALL, plan
+from validation.liu2015.runner import PACKAGE, source_digest
+from validation.liu2015.similarity import BREAK, SAME_HIT, likeness
+from validation.liu2015.statistics import CONFIDENCE, FEWEST, FEWEST_SCATTER, LEVEL, RESAMPLES
+from validation.liu2015.tables import row, tables
+from validation.liu2015.trends import banded, chance, number, verdicts
 
 START, END = "<!-- results: written by validation/liu2015/run.py -->", "<!-- end of the results -->"
 RUNS_TABLE = "runs.csv"
 
-VERDICTS = {
-    AGREES: "Agrees with the paper",
-    OPEN: "Not shown either way",
-    DISAGREES: "Disagrees with the paper",
-    FEW: "Too few seeds to say",
-}
-
 
 def write(ensemble: Ensemble, folder: Path) -> Path:
-    """Write figures, the table of all runs and the page in this folder; what stands on the page outside the marks is kept."""
+    """Write figures, the table of all runs and the page in this folder; what stands on the page outside the marks is kept.
+
+    Raises ValueError, with nothing written, for runs of different sources.
+    """
+    made_with = provenance(ensemble)
     folder.mkdir(parents=True, exist_ok=True)
     ensemble.write(folder / RUNS_TABLE)
-    lines = ["", *provenance(ensemble), *verdicts(ensemble), *pictures(ensemble, folder), *tables(ensemble), ""]
+    parts = [made_with, trends(ensemble), similarity(ensemble), pictures(ensemble, folder), tables(ensemble)]
+    lines = ["", *(line for part in parts for line in part), ""]
     page = folder / "README.md"
     text = page.read_text(encoding="utf-8") if page.exists() else f"# The case of Liu, Long & Ji (2015)\n\n{START}\n{END}\n"
     before, _, rest = text.partition(START)
@@ -37,23 +40,50 @@ def write(ensemble: Ensemble, folder: Path) -> Path:
     return page
 
 
+def one_state(ensemble: Ensemble) -> str:
+    """Digest of the sources that all runs were made with; empty where it is not known. Raises ValueError where they differ."""
+    sources = Counter(result.sources for result in ensemble.results)
+    if len(sources) > 1:
+        counts = ", ".join(f"{count} with {state or 'unknown ones'}" for state, count in sources.most_common())
+        raise ValueError(f"the runs were made with different sources ({counts}) and cannot be compared; --renew makes them anew")
+    return next(iter(sources))
+
+
+def commit() -> str:
+    """The commit that the package is of, where this is a clean checkout; else empty."""
+
+    def git(*words: str) -> str:
+        try:
+            return subprocess.run(["git", *words], capture_output=True, text=True, check=True).stdout.strip()
+        except (OSError, subprocess.CalledProcessError):
+            return ""
+
+    last = git("log", "-1", "--first-parent", "--format=%h", "--", str(PACKAGE))
+    return "" if git("status", "--porcelain", "--", str(PACKAGE)) else last
+
+
 def provenance(ensemble: Ensemble) -> list[str]:
-    """How many runs, by which sources, and how well they conserve energy."""
-    count = len(ensemble.results)
+    """How many runs of the plan, by which sources, and how well they conserve energy."""
+    state, planned = one_state(ensemble), set(plan())
+    count = sum(result.run in planned for result in ensemble.results)
     durations = {f"{result.folder.summary.get('simulated_s', 0.0):g}": None for result in ensemble.results}
-    sources = Counter(result.sources or "unknown" for result in ensemble.results)
     residual = max(result.measures["residual_over_work"] for result in ensemble.results)
-    lines = [
-        f"{count} completed runs of {', '.join(durations)} s; energy residual over work of the current at most {residual:.1e}."
-    ]
-    if list(sources) == ["unknown"]:
+    whole = "All" if count == len(planned) else f"{count} of the"
+    lines = [f"{whole} {len(planned)} runs of the plan, of {', '.join(durations)} s each."]
+    if count < len(planned):
+        done = Counter(result.run.model for result in ensemble.results if result.run in planned)
+        of = Counter(run.model for run in planned)
+        parts = ", ".join(f"{done[model]} of {of[model]} with `{model}`" for model in MODELS)
+        lines.append(f"**The rest is still to do**: there are {parts}. It brings more tests, so that p may rise.")
+    if extra := len(ensemble.results) - count:
+        lines.append(f"{extra} further runs beside the plan.")
+    if not state:
         lines.append("With which state of the sources they were made is not known.")
-    elif len(sources) == 1:
-        lines.append(f"All were made with one state of the sources (`{next(iter(sources))}`).")
     else:
-        states = ", ".join(f"{runs} with `{state}`" for state, runs in sources.most_common())
-        lines.append(f"**They were made with different states of the sources**: {states}.")
-    return [*lines, *step_check(ensemble), ""]
+        of = commit() if state == source_digest() else ""
+        lines.append(f"One state of the sources made them, `{state}`" + (f", that of commit `{of}`." if of else "."))
+    lines.append(f"Energy residual over work of the current: at most {residual:.1e}.")
+    return [" ".join([*lines, *step_check(ensemble)]), ""]
 
 
 def step_check(ensemble: Ensemble) -> list[str]:
@@ -68,27 +98,63 @@ def step_check(ensemble: Ensemble) -> list[str]:
     ]
 
 
-def verdicts(ensemble: Ensemble) -> list[str]:
-    """In a sentence a verdict, then the figures behind each of them."""
-    lines = ["### Trends of the paper", ""]
-    table = ["| trend | model | verdict | figures (mean and 95 % band) |", "| --- | --- | --- | --- |"]
-    rows = {model: findings(ensemble, model) for model in ensemble.models}
-    for model, found in rows.items():
-        for verdict, words in VERDICTS.items():
-            trends = [trend for trend, finding in found if finding.verdict == verdict]
-            if len(trends) == len(found):
-                lines.append(f"- `{model}`: {words}: all.")
-            elif trends:
-                lines.append(f"- `{model}`: {words}: {'; '.join(trends)}.")
-    for pair in zip(*rows.values(), strict=True):
-        for (trend, finding), model in zip(pair, rows, strict=True):
-            table.append(f"| {trend} | `{model}` | {finding.verdict} | {finding.words} |")
+def trends(ensemble: Ensemble) -> list[str]:
+    """How things were tested, then a verdict a trend and model, with the figures behind it."""
+    judged = verdicts(ensemble)
+    count = sum(math.isfinite(verdict.p) for verdict in judged)
     rule = (
-        "*Agrees*: the 95 % band lies wholly on the paper's side (of 0 for the change of slope, of 1 for ratios, of 0.5 for the "
-        f"lane and the arc of 45°), or p < {SIGNIFICANT:g} one-sided; *disagrees*: on the other side; *not shown*: neither. "
-        f"Nothing is said of fewer than {FEWEST_SEEDS} seeds."
+        f"One level for the whole page: {100.0 * LEVEL:g} % for the {count} tests of this table together, by Holm's method; p is "
+        "what is left after that correction. Tests are two-sided: between floe sizes Mann & Whitney's, over the fields of one "
+        "size Wilcoxon's signed ranks; where a row asks several things, of both sizes or of two measures, all must hold, and p "
+        "is the largest. *Agrees*, *disagrees*: p is below the level, on the paper's side or on the other; *cannot be told*: it is "
+        "not; "
+        "*follows from the set-up*: no other outcome was possible, so it is no evidence for the model, nor against the paper. "
+        f"In brackets: {100.0 * CONFIDENCE:g} % bands of single numbers, here and below, from {RESAMPLES} bootstrap samples of the "
+        "fields (expanded percentiles, which cannot leave the range of the data); they are not corrected for their number, and no "
+        f"verdict rests on them. Of fewer than {FEWEST} fields neither test nor band is given, of fewer than {FEWEST_SCATTER} no "
+        "band of a correlation or of Gumbel's law."
     )
-    return [*lines, "", *table, "", rule, ""]
+    lines = ["### Trends of the paper", "", rule, ""]
+    lines += [row("trend", "asked of the runs", "model", "verdict", "p", "figures"), row(*["---"] * 6)]
+    for verdict in judged:
+        found = verdict.finding
+        lines.append(row(found.trend, found.asked, f"`{found.model}`", verdict.word, chance(verdict.p), found.words))
+    return [*lines, ""]
+
+
+def similarity(ensemble: Ensemble) -> list[str]:
+    """How far the speeds are copies of each other."""
+    found = {model: like for model in ensemble.models if (like := likeness(ensemble, model))}
+    if not found:
+        return []
+    heads = (
+        "model",
+        "fields",
+        "n of the highest force",
+        "n of the mean of Fx",
+        f"change of n at {BREAK:g} m/s",
+        "lowest correlation of two speeds",
+        "median",
+        "s of ln F from field to field",
+        "s that field and v^n leave",
+        f"fields with the same highest hit (within {SAME_HIT:g} m) at all speeds",
+    )
+    lines = [
+        "### One field at several speeds",
+        "",
+        f"Floes of {LARGE} m, the first {EQUAL_DRIFT:g} m of drift at every speed. n: exponent of F ~ v^n, fitted field by field; "
+        "correlation: of ln F over the fields, of the two speeds that are least alike and of the median pair; s: standard "
+        "deviation.",
+        "",
+        row(*heads),
+        row(*["---"] * len(heads)),
+    ]
+    for model, like in found.items():
+        pair = f"{banded(like.correlation)}, {like.least_alike[0]:g} and {like.least_alike[1]:g} m/s"
+        cells = [f"`{model}`", str(like.fields), banded(like.exponent), banded(like.mean_exponent), banded(like.change), pair]
+        cells += [number(like.median_correlation), number(like.between), number(like.left), f"{like.same} of {like.fields}"]
+        lines.append(row(*cells))
+    return [*lines, ""]
 
 
 def pictures(ensemble: Ensemble, folder: Path) -> list[str]:
@@ -96,8 +162,12 @@ def pictures(ensemble: Ensemble, folder: Path) -> list[str]:
     at = f"at {SIZE_SPEED:g} m/s"
     over = f"mean over the seeds and from {DRIFT[0]:g} to {DRIFT[1]:g} m of drift"
     drawn = [
-        ("force_by_speed", figures.force_by_speed(ensemble), "Highest and mean force against ice speed, floes of 2.8 m (Fig. 14)"),
-        ("force_by_size", figures.force_by_size(ensemble), f"Two floe sizes {at}; bars: 95 % band of the mean (Figs. 12, 15)"),
+        (
+            "force_by_speed",
+            figures_speed.force_by_speed(ensemble),
+            f"One field at several speeds, floes of {LARGE} m, the first {EQUAL_DRIFT:g} m of drift (Fig. 14)",
+        ),
+        ("force_by_size", figures.force_by_size(ensemble), f"Two floe sizes {at} (Figs. 12, 15)"),
         (
             "load_around",
             figures.load_around(ensemble),
@@ -116,125 +186,3 @@ def pictures(ensemble: Ensemble, folder: Path) -> list[str]:
         for file in figures.save(figure, folder / f"{name}.png"):
             lines += [f"![{caption}]({file})", "", f"*{caption}.*", ""]
     return lines
-
-
-def points(ensemble: Ensemble) -> list[tuple[str, str, float]]:
-    """Model, size and speed of every point that has a run."""
-    return [(model, size, speed) for model in ensemble.models for size in CASES for speed in ensemble.speeds(model, size)]
-
-
-def tables(ensemble: Ensemble) -> list[str]:
-    return [*loads(ensemble), *character(ensemble), *neighbours(ensemble), *models(ensemble)]
-
-
-def loads(ensemble: Ensemble) -> list[str]:
-    lines = [
-        "### Loads",
-        "",
-        "Mean over the seeds and its 95 % band (Student's t); s: standard deviation over the seeds; median with its band from",
-        f"{RESAMPLES} bootstrap samples. No band is given of fewer than {FEWEST} seeds. Every speed reaches {EQUAL_DRIFT:g} m of",
-        f"drift; up to {PASSING_DRIFT:g} m, or the end of the run, ice comes to the pile.",
-        "",
-        "| model | floes, m | speed, m/s | n | highest force, kN | s, kN | median, kN | in the first "
-        f"{EQUAL_DRIFT:g} m, kN | highest Fx, kN | mean Fx, kN | mean Fx up to {PASSING_DRIFT:g} m, kN | 99 % of 10 ms means, kN |",
-        "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |",
-    ]
-    for model, size, speed in points(ensemble):
-        highest = ensemble.of("fh_max_N", model, size, speed).values()
-        band, median = mean_band(highest), median_band(highest)
-        others = ("fh_max_equal_drift_N", "fx_max_N", "fx_mean_N", "fx_mean_passing_N", "fx_p99_of_means_N")
-        cells = [
-            f"`{model}`",
-            size,
-            f"{speed:g}",
-            str(band.n),
-            banded(band, 1e-3),
-            number(1e-3 * band.deviation),
-            banded(median, 1e-3),
-        ]
-        cells += [banded(mean_band(ensemble.of(name, model, size, speed).values()), 1e-3) for name in others]
-        lines.append("| " + " | ".join(cells) + " |")
-    return [*lines, ""]
-
-
-#: head of the column, measure, factor from SI
-CHARACTER = (
-    ("impulse along x, kN s", "fx_impulse_Ns", 1e-3),
-    ("time in contact, %", "contact_time_share", 100.0),
-    ("peaks", "peaks", 1.0),
-    ("their duration, ms", "peak_duration_s", 1e3),
-    (f"fluctuation of {COARSE:g} s means of Fx, kN", "fluctuation_N", 1e-3),
-    ("largest Fy / Fx", "fy_over_fx", 1.0),
-    ("impulse within 45° of upstream, %", "upstream_45_deg_share", 100.0),
-    ("ice behind / beside", "ice_behind_over_beside", 1.0),
-    ("ice ahead / beside", "ice_ahead_over_beside", 1.0),
-    ("speed ahead / current", "speed_ahead_over_current", 1.0),
-)
-
-
-def character(ensemble: Ensemble) -> list[str]:
-    lines = [
-        "### Character of the load, and the ice",
-        "",
-        "Peaks: unbroken rows of 10 ms windows whose highest force reaches a tenth of the run's highest; in contact: windows",
-        f"with any contact. Ice ahead and behind: in strips {STRIP:g} m long and as wide as the pile, from {DRIFT[0]:g} to",
-        f"{DRIFT[1]:g} m of drift.",
-        "",
-        "| model | floes, m | speed, m/s | n | " + " | ".join(head for head, _, _ in CHARACTER) + " |",
-        "| --- | --- | --- | --- |" + " --- |" * len(CHARACTER),
-    ]
-    for model, size, speed in points(ensemble):
-        bands = [(mean_band(ensemble.of(name, model, size, speed).values()), factor) for _, name, factor in CHARACTER]
-        cells = [f"`{model}`", size, f"{speed:g}", str(len(ensemble.chosen(model, size, speed)))]
-        lines.append("| " + " | ".join(cells + [banded(band, factor) for band, factor in bands]) + " |")
-    return [*lines, ""]
-
-
-def neighbours(ensemble: Ensemble) -> list[str]:
-    lines = [
-        "### From one speed to the next",
-        "",
-        "Highest force of the same ice field at two speeds; Wilcoxon's signed ranks, one-sided, each test for itself.",
-        "",
-        "| model | speeds, m/s | seeds that rise | median ratio | p |",
-        "| --- | --- | --- | --- | --- |",
-    ]
-    for model in ensemble.models:
-        speeds = ensemble.speeds(model, LARGE)
-        for slow, fast in zip(speeds[:-1], speeds[1:], strict=True):
-            test = paired(*(ensemble.of("fh_max_N", model, LARGE, speed) for speed in (slow, fast)))
-            lines.append(
-                f"| `{model}` | {slow:g} to {fast:g} | {test.rises} of {test.n} | {number(test.ratio)} | {chance(test.p)} |"
-            )
-    return [*lines, ""]
-
-
-def models(ensemble: Ensemble) -> list[str]:
-    """`consistent` over `liu2015`, field by field."""
-    if len(ensemble.models) < 2:
-        return []
-    base, other = ensemble.models
-    lines = [
-        f"### `{other}` over `{base}`",
-        "",
-        "The same ice fields with the two contact models; p as above, that the first is higher.",
-        "",
-        "| floes, m | speed, m/s | highest force: seeds that rise | median ratio | p | mean Fx: median ratio |",
-        "| --- | --- | --- | --- | --- | --- |",
-    ]
-    for size in CASES:
-        for speed in sorted(set(ensemble.speeds(base, size)) & set(ensemble.speeds(other, size))):
-            highest, mean = (
-                paired(ensemble.of(name, base, size, speed), ensemble.of(name, other, size, speed))
-                for name in ("fh_max_N", "fx_mean_N")
-            )
-            cells = [
-                size,
-                f"{speed:g}",
-                f"{highest.rises} of {highest.n}",
-                number(highest.ratio),
-                chance(highest.p),
-                number(mean.ratio),
-            ]
-            lines.append("| " + " | ".join(cells) + " |")
-    return [*lines, ""]

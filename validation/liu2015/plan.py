@@ -61,18 +61,14 @@ class Run:
 
 
 def plan(models: Sequence[str] = MODELS, speeds: Sequence[float] = SPEEDS, seeds: int = SEED_COUNT) -> list[Run]:
-    """All runs, those first that an early figure needs: the ends of the range of speeds, then the sizes, then the rest.
+    """All runs, seed after seed: a command that ends early leaves whole seeds.
 
-    Within each of the three parts all speeds and models of seed 1 come before those of seed 2.
+    Within a seed the ends of the range of speeds come first, then the small floes, then the other speeds.
     """
     first = [speed for speed in FIRST_SPEEDS if speed in speeds]
     rest = [speed for speed in speeds if speed not in first]
-    parts = [(LARGE, first), (SMALL, [SIZE_SPEED]), (LARGE, rest)]
-    return [
-        Run(model, size, speed, seed)
-        for size, chosen in parts
-        for seed, model, speed in product(range(1, seeds + 1), models, chosen)
-    ]
+    points = [(LARGE, speed) for speed in first] + [(SMALL, SIZE_SPEED)] + [(LARGE, speed) for speed in rest]
+    return [Run(model, size, speed, seed) for seed, (size, speed), model in product(range(1, seeds + 1), points, models)]
 
 
 def found(root: Path) -> Iterable[Run]:

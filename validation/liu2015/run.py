@@ -53,12 +53,18 @@ def arguments(given: Sequence[str] | None = None) -> argparse.Namespace:
     return asked
 
 
-def report(root: Path, out: Path) -> None:
+def report(root: Path, out: Path) -> int:
+    """Write the page of all runs that are done; returns the exit code."""
     found = results(root)
     if not found:
         say(f"{root}: holds no completed run yet, so there is nothing to show")
-        return
-    say(f"{len(found)} completed runs: {page.write(Ensemble(found), out)}")
+        return 0
+    try:
+        say(f"{len(found)} completed runs: {page.write(Ensemble(found), out)}")
+    except ValueError as fault:
+        say(f"{root}: {fault}")
+        return WRONG
+    return 0
 
 
 def interrupt(*_: Any) -> None:
@@ -76,8 +82,7 @@ def main(given: Sequence[str] | None = None) -> int:
         say(f"{len(runs)} runs, {len(waiting)} of them to do: about {seconds / 60.0:.0f} minutes with {asked.jobs} at a time")
         return 0
     if asked.report:
-        report(asked.runs, asked.out)
-        return 0
+        return report(asked.runs, asked.out)
     limit = 3600.0 * asked.hours + 60.0 * asked.minutes
     signal.signal(signal.SIGTERM, interrupt)
     say(f"about {seconds / 60.0:.0f} minutes to go" + (f"; no new run after {limit / 60.0:.0f}" if limit else ""))
@@ -90,8 +95,7 @@ def main(given: Sequence[str] | None = None) -> int:
     except (ValueError, CaseError) as fault:
         say(str(fault))
         return WRONG
-    report(asked.runs, asked.out)
-    return 0
+    return report(asked.runs, asked.out)
 
 
 if __name__ == "__main__":

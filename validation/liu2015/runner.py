@@ -97,6 +97,7 @@ class Runner:
         """Run what is missing. Ctrl-C and SIGTERM (as KeyboardInterrupt) save the state of what runs now and pass on."""
         self._refuse_foreign(runs)
         digest = source_digest()
+        self._refuse_mixture(runs, digest)
         waiting = [run for run in runs if not self._keeps(run, digest)]
         say(f"{len(runs)} runs in {self.root}, {len(runs) - len(waiting)} done before, {self.jobs} at a time")
         if not waiting:
@@ -126,6 +127,16 @@ class Runner:
             written = run.folder(self.root) / "case.toml"
             if written.exists() and load(written) != load(run.case, [*run.overrides(), *self.settings]):
                 raise ValueError(f"{written}: is not the case of this plan; choose another --runs, or remove that folder")
+
+    def _refuse_mixture(self, runs: Sequence[Run], digest: str) -> None:
+        """Raises ValueError when done runs of the plan are of other sources, and so are not to be compared with new ones."""
+        foreign = [sources_of(run.folder(self.root)) or "unknown" for run in runs if completed(run.folder(self.root))]
+        foreign = [state for state in foreign if state != digest]
+        if foreign and not self.renew:
+            raise ValueError(
+                f"{self.root}: {len(foreign)} runs were made with other sources ({', '.join(sorted(set(foreign)))}) "
+                f"than these ({digest}); --renew makes them anew, another --runs keeps them"
+            )
 
     def _run(self, run: Run, place: str) -> None:
         late = self.end is not None and time.monotonic() > self.end

@@ -1,101 +1,204 @@
-"""What a handful of seeds can tell: bands of a mean and a median, paired tests, trends, exponents."""
+"""What a handful of seeds can tell: bands that stay in their range, Gumbel's law of highest loads, rank tests, exponents."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 from scipy import stats
 
 CONFIDENCE = 0.95
-RESAMPLES = 10_000  # of the bootstrap
-#: with fewer values no band is given: of two, Student's is twelve times as wide as they are apart
-FEWEST = 3
+#: the chance, over all tests of the page together, of one effect that is none
+LEVEL = 0.05
+RESAMPLES = 10_000  # of the bootstrap; the same draws every time
+#: with fewer values no band of a mean is given
+FEWEST = 5
+#: ... nor one of what scatter itself makes, as a scale or a correlation: too many resamples hold one or two values, and so none
+FEWEST_SCATTER = 8
+#: share of fields whose highest load stays below the quantile that is quoted: one of ten exceeds it
+QUOTED = 0.9
+#: halvings of the interval that Gumbel's scale is searched in: down to round-off
+HALVINGS = 50
 
 
 @dataclass(frozen=True)
 class Band:
-    """An estimate from n values, its standard deviation over them, and its 95 % confidence band; nan where n is too small."""
+    """An estimate from n values and its confidence band; nan where n is too small."""
 
     n: int
     value: float
-    deviation: float
     low: float
     high: float
-
-    def above(self, threshold: float) -> bool:
-        return self.low > threshold
-
-    def below(self, threshold: float) -> bool:
-        return self.high < threshold
 
 
 @dataclass(frozen=True)
 class Test:
-    """A comparison of before and after. p: one-sided chance of such a rise or more without an effect."""
+    """A two-sided test. towards: on the side that was asked for? p: chance of lying so far off without an effect."""
 
-    n: int  # pairs: one a seed, or each value with each
-    rises: int  # of them
-    ratio: float  # median of after / before
+    n: int
+    count: int  # values, or pairs of values, on the side that was asked for
+    towards: bool
     p: float
 
 
-def finite(values) -> np.ndarray:
+@dataclass(frozen=True)
+class Gumbel:
+    """P(highest load < x) = exp(-exp(-(x - location)/scale)), fitted to one highest load a field."""
+
+    location: Band
+    scale: Band
+    quantile: Band  # that a share QUOTED of the fields stays below
+    correlation: float  # of the sorted loads with the law's quantiles; 1: they lie on it
+
+
+def finite(values: Iterable[float]) -> np.ndarray:
     array = np.asarray(list(values), dtype=float)
     return array[np.isfinite(array)]
 
 
-def mean_band(values) -> Band:
-    """Mean and its band by Student's t."""
+def mean_of_rows(sample: np.ndarray) -> np.ndarray:
+    return sample.mean(axis=-1)
+
+
+def band(values: Iterable[float], estimate: Callable[[np.ndarray], np.ndarray] = mean_of_rows) -> Band:
+    """An estimate, the mean unless said, and its band by the bootstrap."""
     sample = finite(values)
-    mean = float(sample.mean()) if len(sample) else math.nan
-    deviation = float(sample.std(ddof=1)) if len(sample) > 1 else math.nan
+    if not len(sample):
+        return Band(0, math.nan, math.nan, math.nan)
+    value = float(estimate(sample[None, :])[0])
     if len(sample) < FEWEST:
-        return Band(len(sample), mean, deviation, math.nan, math.nan)
-    half = float(stats.t.ppf(0.5 + CONFIDENCE / 2.0, len(sample) - 1)) * deviation / math.sqrt(len(sample))
-    return Band(len(sample), mean, deviation, mean - half, mean + half)
+        return Band(len(sample), value, math.nan, math.nan)
+    return Band(len(sample), value, *percentiles(estimate(sample[drawn(len(sample))]), len(sample)))
 
 
-def median_band(values) -> Band:
-    """Median and its band by the bootstrap (percentiles); the same draws every time."""
+@cache
+def drawn(count: int, stream: int = 1) -> np.ndarray:
+    """(RESAMPLES, count) numbers of the values that a resample takes."""
+    return np.random.default_rng(stream).integers(0, count, (RESAMPLES, count))
+
+
+def percentiles(estimates: np.ndarray, count: int) -> tuple[float, float]:
+    """Ends of a band from the estimates of all resamples of so many values.
+
+    Plain percentiles of few values are too narrow: a resample varies by sqrt(1 - 1/n) too little, and by a normal law, not
+    Student's. Both are mended by going further out (Hesterberg 2015, expanded percentiles); the band still cannot leave the
+    range of what it was drawn from.
+    """
+    student = float(stats.t.ppf(0.5 + CONFIDENCE / 2.0, count - 1))
+    tail = 100.0 * float(stats.norm.cdf(-student * math.sqrt(count / (count - 1.0))))
+    low, high = np.percentile(estimates[np.isfinite(estimates)], [tail, 100.0 - tail])
+    return float(low), float(high)
+
+
+def gumbel_rows(samples: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Location and scale of most likelihood, a pair for every row of samples (rows, n); scipy's, for many rows at once.
+
+    The scale b solves b = mean - sum(x exp(-x/b))/sum(exp(-x/b)). What is left over rises with b and has one zero, between 0
+    and the mean's distance from the smallest value.
+    """
+    least = samples.min(axis=1, keepdims=True)
+    above = samples - least
+    mean = above.mean(axis=1, keepdims=True)
+    low, high = np.zeros_like(mean), mean.copy()
+    for _ in range(HALVINGS):
+        middle = np.maximum(0.5 * (low + high), np.finfo(float).tiny)
+        weight = np.exp(-above / middle)
+        beyond = middle - mean + (above * weight).sum(axis=1, keepdims=True) / weight.sum(axis=1, keepdims=True) > 0.0
+        low, high = np.where(beyond, low, middle), np.where(beyond, middle, high)
+    scale = np.maximum(high, np.finfo(float).tiny)
+    location = least - scale * np.log(np.exp(-above / scale).mean(axis=1, keepdims=True))
+    return location[:, 0], scale[:, 0]
+
+
+def location_of_rows(samples: np.ndarray) -> np.ndarray:
+    return gumbel_rows(samples)[0]
+
+
+def gumbel(values: Iterable[float]) -> Gumbel:
+    """Gumbel's law of the highest loads of independent fields."""
     sample = finite(values)
-    if len(sample) < FEWEST:
-        return mean_band(sample)
-    draws = np.random.default_rng(1).choice(sample, (RESAMPLES, len(sample)))
-    low, high = np.percentile(np.median(draws, axis=1), [50.0 * (1.0 - CONFIDENCE), 50.0 * (1.0 + CONFIDENCE)])
-    return Band(len(sample), float(np.median(sample)), float(sample.std(ddof=1)), float(low), float(high))
+    if len(sample) < 3:
+        return Gumbel(*[Band(len(sample), math.nan, math.nan, math.nan)] * 3, math.nan)
+    estimates = [one[0] for one in quantities(sample[None, :])]
+    if len(sample) < FEWEST_SCATTER:
+        return Gumbel(*(Band(len(sample), float(value), math.nan, math.nan) for value in estimates), math.nan)
+    resampled = quantities(sample[drawn(len(sample))])
+    bands = [
+        Band(len(sample), float(value), *percentiles(rows, len(sample))) for value, rows in zip(estimates, resampled, strict=True)
+    ]
+    places = (np.arange(len(sample)) + 0.56) / (len(sample) + 0.12)  # Gringorten's, for this law
+    return Gumbel(*bands, float(np.corrcoef(np.sort(sample), stats.gumbel_r.ppf(places))[0, 1]))
 
 
-def paired(before: dict[int, float], after: dict[int, float]) -> Test:
-    """Is `after` larger, seed by seed? Wilcoxon's signed ranks, exact, one-sided."""
-    seeds = sorted(seed for seed in before if seed in after and math.isfinite(before[seed]) and math.isfinite(after[seed]))
-    if not seeds:
-        return Test(0, 0, math.nan, math.nan)
-    a, b = np.array([before[seed] for seed in seeds]), np.array([after[seed] for seed in seeds])
-    p = float(stats.wilcoxon(b, a, alternative="greater").pvalue) if np.any(a != b) else 1.0
-    ratio = float(np.median(b / a)) if np.all(a != 0.0) else math.nan
-    return Test(len(seeds), int(np.sum(b > a)), ratio, p)
+def quantities(samples: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Location, scale and the quantile QUOTED of every row."""
+    location, scale = gumbel_rows(samples)
+    return location, scale, location - scale * math.log(-math.log(QUOTED))
 
 
-def unpaired(lower, higher) -> Test:
-    """Is `higher` larger, each value set against each? Mann & Whitney, exact for few values, one-sided."""
+def ratio_band(over: Iterable[float], under: Iterable[float], estimate: Callable[[np.ndarray], np.ndarray]) -> Band:
+    """Ratio of an estimate from two independent samples."""
+    a, b = finite(over), finite(under)
+    count = min(len(a), len(b))
+    if not count:
+        return Band(0, math.nan, math.nan, math.nan)
+    value = float(estimate(a[None, :])[0] / estimate(b[None, :])[0])
+    if count < FEWEST_SCATTER:
+        return Band(count, value, math.nan, math.nan)
+    return Band(count, value, *percentiles(estimate(a[drawn(len(a), 1)]) / estimate(b[drawn(len(b), 2)]), count))
+
+
+def paired_ratio(before: dict[int, float], after: dict[int, float]) -> Band:
+    """Geometric mean over the seeds of after / before, of those where both are above 0."""
+    logs = np.log([after[seed] / before[seed] for seed in sorted(before) if before[seed] > 0.0 and after.get(seed, 0.0) > 0.0])
+    return band(logs, lambda rows: np.exp(rows.mean(axis=-1)))
+
+
+def signed_ranks(values: Iterable[float], *, above: bool) -> Test:
+    """Do values lie above 0 (or below)? Wilcoxon's signed ranks, exact for few values."""
+    sample = finite(values) * (1.0 if above else -1.0)
+    count = int(np.sum(sample > 0.0))
+    if not np.any(sample):
+        return Test(len(sample), count, False, 1.0)
+    p = float(stats.wilcoxon(sample).pvalue)
+    ranks = stats.rankdata(np.abs(sample))
+    return Test(len(sample), count, bool(np.sum(ranks * np.sign(sample)) > 0.0), p)
+
+
+def unpaired(lower: Iterable[float], higher: Iterable[float]) -> Test:
+    """Is `higher` larger, each value set against each? Mann & Whitney, exact for few values."""
     a, b = finite(lower), finite(higher)
     if not len(a) or not len(b):
-        return Test(0, 0, math.nan, math.nan)
-    result = stats.mannwhitneyu(b, a, alternative="greater")
-    ratio = float(np.median(b) / np.median(a)) if np.median(a) else math.nan
-    return Test(len(a) * len(b), round(float(result.statistic)), ratio, float(result.pvalue))
+        return Test(0, 0, False, 1.0)
+    result = stats.mannwhitneyu(b, a)
+    pairs = len(a) * len(b)
+    return Test(pairs, round(float(result.statistic)), bool(result.statistic > 0.5 * pairs), float(result.pvalue))
 
 
-def trend(table: np.ndarray) -> float:
-    """p of Page's test that columns rise from left to right, row by row; table (seeds, speeds). nan where it is too small."""
-    if table.shape[0] < 2 or table.shape[1] < 3:
-        return math.nan
-    return float(stats.page_trend_test(table).pvalue)
+def together(tests: Sequence[Test]) -> Test:
+    """Of statements that must all hold: the weakest of them; where some are on the other side, the clearest of those."""
+    against = [test for test in tests if not test.towards]
+    if against:
+        clearest = min(against, key=lambda test: test.p)
+        return Test(clearest.n, clearest.count, False, min(1.0, len(tests) * clearest.p))
+    return max(tests, key=lambda test: test.p)
 
 
-def complete_rows(columns: list[dict[int, float]]) -> np.ndarray:
+def holm(chances: Sequence[float]) -> list[float]:
+    """p values, in the order given, corrected for their number: below LEVEL, none of the effects is one by chance, to LEVEL."""
+    order = np.argsort(chances)
+    corrected = np.zeros(len(chances))
+    largest = 0.0
+    for rank, place in enumerate(order):
+        largest = max(largest, min(1.0, (len(chances) - rank) * chances[place]))
+        corrected[place] = largest
+    return [float(p) for p in corrected]
+
+
+def complete_rows(columns: Sequence[dict[int, float]]) -> np.ndarray:
     """(seeds, columns) of the seeds that all columns have."""
     seeds = [seed for seed in sorted(columns[0]) if all(math.isfinite(column.get(seed, math.nan)) for column in columns)]
     return np.array([[column[seed] for column in columns] for seed in seeds]).reshape(len(seeds), len(columns))
@@ -107,10 +210,3 @@ def exponents(speeds: np.ndarray, table: np.ndarray) -> np.ndarray:
     if len(speeds) < 2 or not len(table):
         return np.full(len(table), math.nan)
     return np.polyfit(np.log(speeds), np.log(table.T), 1)[0]
-
-
-def slopes(speeds: np.ndarray, table: np.ndarray) -> np.ndarray:
-    """dF/dv by least squares, one per row of the table (seeds, speeds)."""
-    if len(speeds) < 2 or not len(table):
-        return np.full(len(table), math.nan)
-    return np.polyfit(speeds, table.T, 1)[0]

@@ -1,49 +1,56 @@
-"""The paper's trends, one after the other: what it says, what the runs say, and whether the two agree."""
+"""The paper's trends, one after the other: what it says, what is asked of the runs, what they say, and whether the two agree."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
 from validation.liu2015.measures import FIRST_HITS, JAM, Ensemble
-from validation.liu2015.plan import LARGE, SIZE_SPEED, SMALL
-from validation.liu2015.statistics import Band, complete_rows, exponents, mean_band, slopes, trend, unpaired
+from validation.liu2015.plan import CASES, LARGE, SIZE_SPEED, SMALL
+from validation.liu2015.similarity import BREAK, likeness
+from validation.liu2015.statistics import (
+    FEWEST,
+    LEVEL,
+    Band,
+    Test,
+    band,
+    finite,
+    gumbel,
+    holm,
+    location_of_rows,
+    ratio_band,
+    signed_ranks,
+    together,
+    unpaired,
+)
 
-#: a one-sided test below this is taken for an effect
-SIGNIFICANT = 0.05
-#: with fewer seeds nothing is said
-FEWEST_SEEDS = 5
-#: m/s above which the paper sees the force grow faster
-BREAK = 0.7
+#: highest force over mean force from which on a history is called pulses
+PULSES = 10.0
 
-AGREES, OPEN, DISAGREES, FEW = "agrees", "not shown", "**disagrees**", "too few seeds"
+AGREES, DISAGREES, OPEN, SETUP = "agrees", "**disagrees**", "cannot be told", "follows from the set-up"
 
 
 @dataclass(frozen=True)
 class Finding:
-    """The verdict on one trend with one model, and the figures behind it."""
+    """One trend with one model. test: None where the outcome follows from the set-up, so that there is nothing to test."""
 
-    verdict: str
+    trend: str
+    model: str
+    asked: str
     words: str
+    test: Test | None
 
 
-def by_band(band: Band, threshold: float, *, above: bool) -> str:
-    """Is the mean above (or below) a threshold, its whole band included?"""
-    if band.n < FEWEST_SEEDS:
-        return FEW
-    if band.above(threshold):
-        return AGREES if above else DISAGREES
-    if band.below(threshold):
-        return DISAGREES if above else AGREES
-    return OPEN
+@dataclass(frozen=True)
+class Verdict:
+    """p: corrected for all tests of the page; nan where none was made."""
 
-
-def by_test(test_p: float, opposite_p: float, n: int) -> str:
-    if n < FEWEST_SEEDS:
-        return FEW
-    return AGREES if test_p < SIGNIFICANT else DISAGREES if opposite_p < SIGNIFICANT else OPEN
+    finding: Finding
+    word: str
+    p: float
 
 
 def number(value: float, digits: int = 3) -> str:
@@ -54,9 +61,11 @@ def number(value: float, digits: int = 3) -> str:
 
 
 def banded(band: Band, scale: float = 1.0) -> str:
-    """Mean and its band, as 113 (74 to 151)."""
+    """An estimate and its band, as 113 (74 to 151). Where all fields have one value, resamples cannot tell of others."""
     if not math.isfinite(band.low):
         return number(scale * band.value)
+    if band.low == band.high:
+        return f"{number(scale * band.value)} (in all {band.n})"
     return f"{number(scale * band.value)} ({number(scale * band.low)} to {number(scale * band.high)})"
 
 
@@ -64,134 +73,135 @@ def chance(p: float) -> str:
     return "–" if not math.isfinite(p) else "< 0.001" if p < 0.001 else f"{p:.2g}"
 
 
-def speed_table(ensemble: Ensemble, model: str, name: str = "fh_max_N") -> tuple[np.ndarray, np.ndarray]:
-    """Speeds (k,) [m/s], and the measure (seeds, k) of the seeds that were run at all of them."""
-    speeds = ensemble.speeds(model, LARGE)
-    if not speeds:
-        return np.zeros(0), np.zeros((0, 0))
-    return np.array(speeds), complete_rows([ensemble.of(name, model, LARGE, speed) for speed in speeds])
+def by_size(ensemble: Ensemble, name: str, model: str) -> dict[str, np.ndarray]:
+    """A measure at SIZE_SPEED, of both floe sizes."""
+    return {size: finite(ensemble.of(name, model, size, SIZE_SPEED).values()) for size in CASES}
 
 
-def parted(speeds: np.ndarray, table: np.ndarray, fit) -> tuple[np.ndarray, np.ndarray]:
-    """A fit per seed up to BREAK and from BREAK on."""
-    low, high = speeds <= BREAK + 1e-9, speeds >= BREAK - 1e-9
-    return fit(speeds[low], table[:, low]), fit(speeds[high], table[:, high])
+def both_sizes(say: Callable[[str], str]) -> str:
+    return "; ".join(f"{size} m: {say(size)}" for size in CASES)
 
 
 def rises_with_speed(ensemble: Ensemble, model: str) -> Finding:
-    speeds, table = speed_table(ensemble, model)
-    if len(speeds) < 3:
-        return Finding(FEW, "fewer than three speeds")
-    rising, falling = trend(table), trend(table[:, ::-1])
-    power = mean_band(exponents(speeds, table))
-    words = f"Page's trend test p {chance(rising)}; F ~ v^n with n = {banded(power)} over all speeds; n = {len(table)} seeds"
-    return Finding(by_test(rising, falling, len(table)), words)
+    found = likeness(ensemble, model)
+    words = "too few runs"
+    if found:
+        words = (
+            f"F ~ v^n with n = {banded(found.exponent)}; correlation of two speeds over the fields at least "
+            f"{banded(found.correlation)}"
+        )
+    return Finding("The highest force rises with ice speed (Fig. 14)", model, "nothing: similarity", words, None)
 
 
 def faster_above(ensemble: Ensemble, model: str) -> Finding:
-    speeds, table = speed_table(ensemble, model)
-    if np.sum(speeds <= BREAK + 1e-9) < 2 or np.sum(speeds >= BREAK - 1e-9) < 2:
-        return Finding(FEW, f"fewer than two speeds to a side of {BREAK:g} m/s")
-    before, after = parted(speeds, table, slopes)
-    below, above = parted(speeds, table, exponents)
+    found = likeness(ensemble, model)
+    words = f"n changes by {banded(found.change)} at {BREAK:g} m/s" if found else "too few runs"
+    return Finding(f"It grows faster above {BREAK:g} m/s (Fig. 14)", model, "nothing: no such break can appear", words, None)
+
+
+def softer(ensemble: Ensemble, model: str) -> Finding:
+    """Fields of two floe sizes have nothing in common, whatever their seed, so no pairs."""
+    highest = by_size(ensemble, "fh_max_first_hits_N", model)
+    test = unpaired(highest[SMALL], highest[LARGE])
+    ratio = ratio_band(highest[SMALL], highest[LARGE], location_of_rows)
     words = (
-        f"slope {banded(mean_band(before), 1e-3)} kN per m/s up to {BREAK:g} m/s, {banded(mean_band(after), 1e-3)} from there on, "
-        f"difference {banded(mean_band(after - before), 1e-3)}; exponent {banded(mean_band(below))}, then "
-        f"{banded(mean_band(above))}; n = {len(table)}"
+        f"Gumbel's location {banded(gumbel(highest[SMALL]).location, 1e-3)} against "
+        f"{banded(gumbel(highest[LARGE]).location, 1e-3)} kN, ratio {banded(ratio)}; "
+        f"lower in {test.count} of {test.n} pairs of fields"
     )
-    return Finding(by_band(mean_band(after - before), 0.0, above=True), words)
+    asked = f"highest force of the first {FIRST_HITS:g} s, {SMALL} m below {LARGE} m"
+    return Finding("Smaller floes hit more softly at first (Fig. 15)", model, asked, words, test)
 
 
-def one_sided(ensemble: Ensemble, model: str, size: str) -> Finding:
-    backward = mean_band(ensemble.of("fx_backward_share", model, size, SIZE_SPEED).values())
-    peaky = mean_band(ensemble.of("peak_over_mean", model, size, SIZE_SPEED).values())
-    duration = mean_band(ensemble.of("peak_duration_s", model, size, SIZE_SPEED).values())
+def steadier(ensemble: Ensemble, model: str) -> Finding:
+    swing = by_size(ensemble, "fluctuation_first_hits_N", model)
+    test = unpaired(swing[SMALL], swing[LARGE])
     words = (
-        f"{number(100.0 * backward.value)} % of the impulse points upstream; the highest peak is {banded(peaky)} times the mean, "
-        f"peaks last {banded(duration, 1e3)} ms; n = {peaky.n}"
+        f"{banded(band(swing[SMALL]), 1e-3)} against {banded(band(swing[LARGE]), 1e-3)} kN; "
+        f"lower in {test.count} of {test.n} pairs of fields"
     )
-    verdict = FEW if peaky.n < FEWEST_SEEDS else AGREES if backward.value < 0.01 and peaky.low > 10.0 else DISAGREES
-    return Finding(verdict, words)
-
-
-def alternates(ensemble: Ensemble, model: str, size: str) -> Finding:
-    lowest, highest = (ensemble.of(name, model, size, SIZE_SPEED) for name in ("fy_min_N", "fy_max_N"))
-    both = sum(lowest[seed] < 0.0 < highest[seed] for seed in lowest)
-    smaller = mean_band(ensemble.of("fy_over_fx", model, size, SIZE_SPEED).values())
-    turns = mean_band(ensemble.of("fy_turns", model, size, SIZE_SPEED).values())
-    words = (
-        f"both signs in {both} of {len(lowest)} seeds, {banded(turns)} changes of sign a run; "
-        f"largest Fy / largest Fx {banded(smaller)}"
-    )
-    verdict = by_band(smaller, 1.0, above=False)
-    return Finding(verdict if both == len(lowest) or verdict == FEW else OPEN, words)
-
-
-def upstream(ensemble: Ensemble, model: str, size: str) -> Finding:
-    near, half = (mean_band(ensemble.of(f"upstream_{angle}_deg_share", model, size, SIZE_SPEED).values()) for angle in (45, 90))
-    words = f"{banded(near, 100.0)} % of the impulse within 45° of upstream, {banded(half, 100.0)} % within 90°; n = {near.n}"
-    return Finding(by_band(near, 0.5, above=True), words)
-
-
-def softer(ensemble: Ensemble, model: str, name: str, what: str) -> Finding:
-    """Is a measure smaller with the small floes? Their fields have nothing in common with the large ones', so no pairs."""
-    large, small = (ensemble.of(name, model, size, SIZE_SPEED) for size in (LARGE, SMALL))
-    falls, rises = unpaired(small.values(), large.values()), unpaired(large.values(), small.values())
-    words = (
-        f"{what} {banded(mean_band(small.values()), 1e-3)} against {banded(mean_band(large.values()), 1e-3)} kN; the small floes' "
-        f"is lower in {falls.rises} of {falls.n} pairs, p {chance(falls.p)}; n = {len(small)} and {len(large)}"
-    )
-    return Finding(by_test(falls.p, rises.p, min(len(small), len(large))), words)
+    asked = f"fluctuation of Fx in the first {FIRST_HITS:g} s, {SMALL} m below {LARGE} m"
+    return Finding("Smaller floes load the pile more steadily at first (Fig. 15)", model, asked, words, test)
 
 
 def jam_fluctuates(ensemble: Ensemble, model: str) -> Finding:
-    ratios = ensemble.of("fluctuation_jam_over_before", model, SMALL, SIZE_SPEED)
-    band = mean_band(ratios.values())
-    more = sum(value > 1.0 for value in ratios.values())
-    times = f"{JAM[0]:g} to {JAM[1]:g} s"
-    words = f"fluctuation of Fx from {times} over that before: {banded(band)}; above 1 in {more} of {len(ratios)} seeds"
-    return Finding(by_band(band, 1.0, above=True), words)
+    ratios = by_size(ensemble, "fluctuation_jam_over_before", model)[SMALL]
+    test = signed_ranks(np.log(ratios[ratios > 0.0]), above=True)
+    words = f"ratio {banded(band(ratios))}; above 1 in {test.count} of {test.n} fields"
+    asked = f"fluctuation of Fx from {JAM[0]:g} to {JAM[1]:g} s over that before, above 1"
+    trend = f"Smaller floes make Fx fluctuate more from {JAM[0]:g} s on, when they jam (Figs. 15, 16)"
+    return Finding(trend, model, asked, words, test)
 
 
-def lane(ensemble: Ensemble, model: str, size: str) -> Finding:
-    band = mean_band(ensemble.of("ice_behind_over_beside", model, size, SIZE_SPEED).values())
-    words = f"concentration behind the pile over that beside it {banded(band)}; n = {band.n}"
-    return Finding(by_band(band, 0.5, above=False), words)
+def pulses(ensemble: Ensemble, model: str) -> Finding:
+    peaky, duration, backward = (
+        by_size(ensemble, name, model) for name in ("peak_over_mean", "peak_duration_s", "fx_backward_share")
+    )
+    test = together([signed_ranks(np.log(peaky[size] / PULSES), above=True) for size in CASES])
+    words = both_sizes(
+        lambda size: (
+            f"{banded(band(peaky[size]))} times the mean, peaks last {banded(band(duration[size]), 1e3)} ms, "
+            f"{banded(band(backward[size]), 100.0)} % of the impulse points upstream"
+        )
+    )
+    asked = f"highest force above {PULSES:g} times the mean of Fx (that Fx is one-sided follows from the set-up)"
+    return Finding("Fx is one-sided and comes in pulses (Figs. 12, 15)", model, asked, words, test)
 
 
-def jam(ensemble: Ensemble, model: str, size: str) -> Finding:
-    dense = mean_band(ensemble.of("ice_ahead_over_beside", model, size, SIZE_SPEED).values())
-    slow = mean_band(ensemble.of("speed_ahead_over_current", model, size, SIZE_SPEED).values())
-    words = f"concentration ahead over that beside {banded(dense)}, speed ahead over the current {banded(slow)}; n = {dense.n}"
-    verdicts = {by_band(dense, 1.0, above=True), by_band(slow, 1.0, above=False)}
-    return Finding(verdicts.pop() if len(verdicts) == 1 else OPEN, words)
+def smaller_across(ensemble: Ensemble, model: str) -> Finding:
+    smaller, turns = by_size(ensemble, "fy_over_fx", model), by_size(ensemble, "fy_turns", model)
+    test = together([signed_ranks(np.log(smaller[size][smaller[size] > 0.0]), above=False) for size in CASES])
+    words = both_sizes(lambda size: f"{banded(band(smaller[size]))}, {banded(band(turns[size]))} changes of sign a run")
+    asked = "largest Fy over largest Fx below 1 (that Fy has both signs follows from the set-up)"
+    return Finding("Fy alternates in sign and is smaller (Figs. 12, 15)", model, asked, words, test)
 
 
-#: trends that the paper shows for both sizes: its words, the check, and the figure of the large and of the small floes
-BOTH_SIZES = (
-    ("Fx is one-sided and comes in pulses", one_sided, ("Fig. 12", "Fig. 15")),
-    ("Fy alternates in sign and is smaller", alternates, ("Fig. 12", "Fig. 15")),
-    ("The load sits on the upstream arc", upstream, ("Fig. 13", "Fig. 18")),
-    ("A lane opens behind the pile", lane, ("Fig. 10", "Fig. 16")),
-    ("Ice jams and slows down ahead of the pile", jam, ("Fig. 11", "Figs. 16, 17")),
-)
+def upstream(ensemble: Ensemble, model: str) -> Finding:
+    near, half = (by_size(ensemble, f"upstream_{angle}_deg_share", model) for angle in (45, 90))
+    test = together([signed_ranks(near[size] - 0.5, above=True) for size in CASES])
+    words = both_sizes(
+        lambda size: f"{banded(band(near[size]), 100.0)} % within 45°, {banded(band(half[size]), 100.0)} % within 90°"
+    )
+    asked = "more than half of the impulse within 45° of upstream (that all is within 90° follows from the set-up)"
+    return Finding("The load sits on the upstream arc (Figs. 13, 18)", model, asked, words, test)
 
 
-def findings(ensemble: Ensemble, model: str) -> list[tuple[str, Finding]]:
-    """Every trend of the paper in words, with what one model makes of it."""
-    late = f"from {JAM[0]:g} to {JAM[1]:g} s"
-    first = f"highest force of the first {FIRST_HITS:g} s"
-    shown = [
-        ("The highest force rises with ice speed (Fig. 14)", rises_with_speed(ensemble, model)),
-        (f"It grows faster above {BREAK:g} m/s (Fig. 14)", faster_above(ensemble, model)),
-        ("Smaller floes hit more softly at first (Fig. 15)", softer(ensemble, model, "fh_max_first_hits_N", first)),
-        (
-            f"Smaller floes load the pile more steadily in the first {FIRST_HITS:g} s (Fig. 15)",
-            softer(ensemble, model, "fluctuation_first_hits_N", "fluctuation of Fx"),
-        ),
-        (f"Smaller floes make Fx fluctuate more {late}, when they jam (Figs. 15, 16)", jam_fluctuates(ensemble, model)),
-    ]
-    for words, check, places in BOTH_SIZES:
-        for size, place in zip((LARGE, SMALL), places, strict=True):
-            shown.append((f"{words}, {size} m ({place})", check(ensemble, model, size)))
-    return shown
+def lane(ensemble: Ensemble, model: str) -> Finding:
+    behind = by_size(ensemble, "ice_behind_over_beside", model)
+    test = together([signed_ranks(behind[size] - 0.5, above=False) for size in CASES])
+    words = both_sizes(lambda size: banded(band(behind[size])))
+    asked = "concentration behind the pile over that beside it below 0.5"
+    return Finding("A lane opens behind the pile (Figs. 10, 16)", model, asked, words, test)
+
+
+def jam(ensemble: Ensemble, model: str) -> Finding:
+    dense, slow = (by_size(ensemble, name, model) for name in ("ice_ahead_over_beside", "speed_ahead_over_current"))
+    tests = [signed_ranks(dense[size] - 1.0, above=True) for size in CASES]
+    tests += [signed_ranks(slow[size] - 1.0, above=False) for size in CASES]
+    words = both_sizes(lambda size: f"concentration {banded(band(dense[size]))}, speed {banded(band(slow[size]))}")
+    asked = "concentration ahead over that beside above 1, speed ahead over the current's below 1"
+    return Finding("Ice jams and slows down ahead of the pile (Figs. 11, 16, 17)", model, asked, words, together(tests))
+
+
+TRENDS = (rises_with_speed, faster_above, softer, steadier, jam_fluctuates, pulses, smaller_across, upstream, lane, jam)
+
+
+def enough(ensemble: Ensemble, model: str) -> bool:
+    """Have both floe sizes been run with so many fields that a test could find something?"""
+    return all(len(ensemble.chosen(model, size, SIZE_SPEED)) >= FEWEST for size in CASES)
+
+
+def verdicts(ensemble: Ensemble) -> list[Verdict]:
+    """Every trend with every model, judged at one level for all tests together."""
+    found = [check(ensemble, model) for check in TRENDS for model in ensemble.models]
+    tested = [finding for finding in found if finding.test and enough(ensemble, finding.model)]
+    chances = dict(zip(map(id, tested), holm([finding.test.p for finding in tested]), strict=True))
+    judged = []
+    for finding in found:
+        if finding.test is None:
+            judged.append(Verdict(finding, SETUP, math.nan))
+            continue
+        p = chances.get(id(finding), math.nan)
+        word = OPEN if not p < LEVEL else AGREES if finding.test.towards else DISAGREES
+        judged.append(Verdict(finding, word, p))
+    return judged
