@@ -8,6 +8,8 @@ from typing import Any
 LARGEST_GAIN = 0.1
 #: share of the energy turned over that the ledger may leave unexplained; of it, too, what laws make is too little to matter
 LARGEST_RESIDUAL = 0.001
+#: share of the kinetic energy below which a residual is no doubt: in free flight nothing is turned over, and steps have an error
+FREE_FLIGHT = 1e-6
 
 
 def doubts(summary: dict[str, Any]) -> list[str]:
@@ -39,7 +41,8 @@ def doubt_of_laws(energy: dict[str, Any]) -> str:
 def doubt_of_residual(energy: dict[str, Any], model: str | None) -> str:
     """What the ledger leaves unexplained, once that passes a thousandth of the energy turned over."""
     share = energy.get("residual_over_turned_over")
-    if share is None or share <= LARGEST_RESIDUAL:
+    in_flight = FREE_FLIGHT * energy.get("kinetic_J", 0.0)
+    if share is None or share <= LARGEST_RESIDUAL or energy["residual_J"] <= in_flight:
         return ""
     other = "" if model == "consistent" else ' or contact.model = "consistent"'
     return (

@@ -58,6 +58,13 @@ def test_a_residual_beyond_a_thousandth_of_the_energy_turned_over_is_told(model)
     assert doubts(summary_of(residual=0.9, model=model)) == []
 
 
+def test_the_error_of_the_steps_of_a_body_that_spins_freely_is_not_told():
+    summary = summary_of(residual=23.0, turned_over=11.5)
+    assert len(doubts(summary)) == 1
+    summary["energy"]["kinetic_J"] = 1e8
+    assert doubts(summary) == []
+
+
 @pytest.mark.parametrize("summary", [{}, {"energy": None}, {"energy": {"residual_over_turned_over": None, "gain_law_J": None}}])
 def test_what_a_summary_does_not_hold_is_not_doubted(summary):
     assert doubts(summary) == []
