@@ -134,7 +134,8 @@ def test_ctrl_c_five_times_in_a_row_prints_no_traceback(pause_s, tmp_path):
         process.send_signal(signal.SIGINT)
         time.sleep(pause_s)
     said = process.communicate(timeout=60)[1]
-    assert process.returncode == 130
+    # a shell says 130 of both: once Python takes itself apart, the system's own answer to Ctrl-C ends the process
+    assert process.returncode in (130, -signal.SIGINT)
     assert "Traceback" not in said and "Exception ignored" not in said and said.count("\n") <= 1
 
 
