@@ -16,7 +16,7 @@ from dilatedem.geometry import outline as plan
 from dilatedem.geometry.mass import edge_arcs, vertex_directions
 from dilatedem.geometry.polyhedron import Polyhedron, assemble, centroid, convex_hull, prism
 from dilatedem.geometry.polyhedron import volume as polyhedron_volume
-from dilatedem.numerics.plain import dot, norm, root, sine_cosine, turned
+from dilatedem.numerics.plain import dot, norm, nth_root, sine_cosine, turned
 
 # Sides of the polygon that stands for a circle in the outer shape of spheres and capsules, a multiple of 4:
 # 266 vertices on a sphere, its facets 0.9 % of the radius off before the volume is put right.
@@ -59,7 +59,7 @@ def _of_volume(sharp: Polyhedron, volume: float | np.ndarray) -> Polyhedron:
     """Moved to have its centroid at the origin, then scaled to the given volume."""
     sharp = sharp.translated(-centroid(sharp))
     ratio = np.asarray(volume / polyhedron_volume(sharp))
-    factor = np.array([root(x, 3) for x in ratio.ravel().tolist()])
+    factor = np.array([nth_root(x, 3) for x in ratio.ravel().tolist()])
     return sharp.scaled(factor.reshape(ratio.shape))
 
 

@@ -14,7 +14,7 @@ from dilatedem.contact.search.neighbours import SKIN, USABLE
 from dilatedem.jit import item
 from dilatedem.motion.paces import LONGEST_MOVE
 from dilatedem.numerics.blocks import take
-from dilatedem.numerics.plain import dot, norm, root, turned
+from dilatedem.numerics.plain import dot, norm, nth_root, turned
 from dilatedem.numerics.vector import load
 from dilatedem.state.response import is_free, mobility
 
@@ -53,7 +53,7 @@ def critical_step(model, bodies) -> float:
             shortest = min(shortest, 2.0 * shrink / sqrt(resting.max()))
         hertz = moving * inverse_mass * (4.0 / 3.0 * modulus * np.sqrt(radius))
         if hertz.max() > 0.0:
-            depth = root(1.25 * speed * speed / hertz.max(), 5) ** 2
+            depth = nth_root(1.25 * speed * speed / hertz.max(), 5) ** 2
             shortest = min(shortest, 2.943 * depth / speed / STEPS_PER_CONTACT)
     return shortest
 

@@ -73,7 +73,7 @@ def sine_cosine(x: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
     return np.where(beyond >= 2.0, -s, s), np.where((beyond == 1.0) | (beyond == 2.0), -c, c)
 
 
-def root(x: float, degree: int) -> float:
+def nth_root(x: float, degree: int) -> float:
     """The root of a number x >= 0, of a degree of 2 or more, by Newton's method."""
     if x == 0.0:
         return 0.0

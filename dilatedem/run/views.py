@@ -5,6 +5,7 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from dilatedem.numerics.frames import matrix_from_quaternion
+from dilatedem.numerics.plain import turned
 from dilatedem.results.snapshots import plan_outlines
 
 
@@ -60,7 +61,7 @@ class Floes:
         """n outlines (k, 2) [m] as seen from above."""
         hulls = self._model.hulls
         owner = np.repeat(np.arange(len(self)), np.diff(hulls.vertex_start))
-        corners = np.einsum("nij,nj->ni", matrix_from_quaternion(self.orientation)[owner], hulls.vertex)
+        corners = turned(matrix_from_quaternion(self.orientation)[owner], hulls.vertex)
         return plan_outlines((corners + self.position[owner])[:, :2], owner, len(self))
 
 

@@ -15,6 +15,7 @@ from dilatedem.errors import CaseError
 from dilatedem.geometry.polyhedron import Polyhedron
 from dilatedem.geometry.separation import core_distance
 from dilatedem.numerics.frames import matrix_from_quaternion
+from dilatedem.numerics.plain import dot, turned
 from dilatedem.scene.place import Scene
 from dilatedem.state.bodies import Bodies
 from dilatedem.state.model import Model
@@ -80,7 +81,7 @@ class _Place:
         self.start = self.shapes.vertex_start[: self.count + 1]
         self.turn = matrix_from_quaternion(bodies.orientation[: self.count])
         owner = np.repeat(np.arange(self.count), np.diff(self.start))
-        self.vertex = np.einsum("vij,vj->vi", self.turn[owner], self.shapes.vertex) + self.position[owner]
+        self.vertex = turned(self.turn[owner], self.shapes.vertex) + self.position[owner]
         radius = self.shapes.radius[: self.count, None]
         self.low = np.minimum.reduceat(self.vertex, self.start[:-1]) - radius
         self.high = np.maximum.reduceat(self.vertex, self.start[:-1]) + radius
@@ -93,7 +94,7 @@ class _Place:
     def core(self, i: int, shift: np.ndarray) -> Polyhedron:
         """Core i, moved by `shift` (3,) [m]; its faces by their normals alone."""
         shapes, (first, last) = self.shapes, self.start[i : i + 2]
-        normals = shapes.face_normal[shapes.face_start[i] : shapes.face_start[i + 1]] @ self.turn[i].T
+        normals = turned(self.turn[i], shapes.face_normal[shapes.face_start[i] : shapes.face_start[i + 1]])
         corner = np.repeat(np.arange(first, last), np.diff(shapes.neighbour_start[first : last + 1]))
         other = shapes.neighbour[shapes.neighbour_start[first] : shapes.neighbour_start[last]]
         edges = np.column_stack((corner, other))[corner < other] - first
@@ -111,7 +112,7 @@ def _half_spaces(here: _Place) -> Iterator[Overlap]:
     """Bodies in or behind a plane."""
     floating, shapes = here.scene.count, here.shapes
     for k, point in enumerate(here.points, start=here.count):
-        height = (here.vertex[: here.start[floating]] - point) @ shapes.plane_normal[k]
+        height = dot(here.vertex[: here.start[floating]] - point, shapes.plane_normal[k])
         radius = shapes.radius[:floating]
         depth = radius - np.minimum.reduceat(height, here.start[:floating])
         for i in np.flatnonzero((depth > TOUCHING * radius) & ~here.held[:floating]):

@@ -54,7 +54,7 @@ DETERMINED = (
     "water",
 )
 #: modules there that only tell whether a case is refused
-JUDGING = ("geometry/separation.py", "scene/overlaps.py")
+JUDGING = ("geometry/separation.py",)
 #: what BLAS, LAPACK and NumPy's vector code do as the processor has it
 ROUNDED = {
     "linalg", "matmul", "dot", "vdot", "vecdot", "matvec", "vecmat", "inner", "tensordot", "einsum", "sin", "cos", "tan", "sinc",

@@ -53,4 +53,4 @@ def test_no_angle_has_no_sine_and_a_cosine_of_one():
 @pytest.mark.parametrize("degree", [2, 3, 5])
 def test_the_power_of_a_root_is_the_number(degree):
     for x in [0.0, 1.0, 2.0**degree, *RANDOM.lognormal(0.0, 20.0, 200)]:
-        assert plain.root(float(x), degree) ** degree == pytest.approx(x, rel=1e-15 * degree)
+        assert plain.nth_root(float(x), degree) ** degree == pytest.approx(x, rel=1e-15 * degree)
