@@ -3,13 +3,15 @@
 import math
 
 from dilatedem.motion.paces import LONGEST_MOVE
+from dilatedem.scene.overlaps import body_name
 from dilatedem.state.clock import Status
 
 
 def fault(simulation, status: Status) -> str:
     """Which bodies, when and why."""
     clock = simulation.state.clock
-    names = [_body_name(simulation, int(i)) for i in clock.culprit if i >= 0]
+    scene, model, state = simulation.scene, simulation.model, simulation.state
+    names = [body_name(int(i), scene, model, state.bodies, state.ids.body) for i in clock.culprit if i >= 0]
     measure = float(clock.measure[0])
     if status == Status.TOO_DEEP:
         cause = f"{names[0]} and {names[1]} overlap by {measure:.3g} m, more than their rounded edges can mean"
@@ -22,10 +24,3 @@ def fault(simulation, status: Status) -> str:
                 f"(spins) are meant, set time.step to at most {simulation.dt * limit / measure:.2g} s"
             )
     return f"stopped at t = {simulation.time_s:.6g} s: {cause}"
-
-
-def _body_name(simulation, body: int) -> str:
-    if body >= simulation.model.floating:
-        return f'structure "{simulation.scene.structures[simulation.model.structure_of[body]].name}"'
-    x, y = simulation.state.bodies.position[body, :2]
-    return f"body {simulation.state.ids.body[body]} at ({x:.2f}, {y:.2f})"

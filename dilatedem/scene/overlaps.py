@@ -152,12 +152,13 @@ def _near(here: _Place) -> Iterator[tuple[int, int, np.ndarray]]:
 
 
 def _sentence(overlap: Overlap, scene: Scene, model: Model, bodies: Bodies) -> str:
-    first, second = (_name(i, scene, model, bodies) for i in (overlap.a, overlap.b))
+    first, second = (body_name(i, scene, model, bodies, np.arange(model.floating)) for i in (overlap.a, overlap.b))
     return f"  {first} and {second}, by {overlap.depth:.3g} m{' across the periodic seam' if overlap.seam else ''}"
 
 
-def _name(body: int, scene: Scene, model: Model, bodies: Bodies) -> str:
+def body_name(body: int, scene: Scene, model: Model, bodies: Bodies, ids: np.ndarray) -> str:
+    """A body, or the structure that it is part of, for a message; ids: numbers of the bodies that float."""
     if body >= model.floating:
         return f'structure "{scene.structures[model.structure_of[body]].name}"'
     x, y = np.round(bodies.position[body, :2], 2) + 0.0  # no -0.00
-    return f"body {body} at ({x:.2f}, {y:.2f})"
+    return f"body {ids[body]} at ({x:.2f}, {y:.2f})"
