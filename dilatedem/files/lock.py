@@ -65,8 +65,8 @@ class Lock:
                 self._folder.mkdir(parents=True, exist_ok=True)
                 self._new = not os.path.lexists(self._path)
                 descriptor = open_file(self._path, os.O_RDWR | os.O_CREAT)
-            except FileNotFoundError:  # its owner removed the folder in between
-                if not left:
+            except (FileNotFoundError, FileExistsError):  # its owner removed the folder in between, before or after a look at it
+                if not left or _in_the_way(self._folder):
                     raise
                 continue
             try:
@@ -120,6 +120,11 @@ def _lock(descriptor: int) -> bool:
         except OSError:  # there are file systems without locks
             pass
     return True
+
+
+def _in_the_way(folder: Path) -> bool:
+    """Whether something that is no folder has its name, or that of one above it."""
+    return any(os.path.lexists(path) and not path.is_dir() for path in (folder, *folder.parents))
 
 
 def _is_there(descriptor: int, path: Path) -> bool:

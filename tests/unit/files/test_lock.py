@@ -1,6 +1,7 @@
 """One process at a time in a folder."""
 
 import errno
+import pathlib
 import subprocess
 import sys
 import time
@@ -59,6 +60,30 @@ def test_a_lock_file_that_its_owner_removed_is_made_anew(tmp_path, monkeypatch):
     monkeypatch.setattr(lock, "open_file", open_then_lose)
     with Lock(tmp_path):
         assert len(calls) == 2 and (tmp_path / LOCK).exists()
+
+
+def test_a_folder_that_its_owner_removed_is_made_anew(tmp_path, monkeypatch):
+    """Between the attempt to make it and the look at what is there."""
+    make, calls = pathlib.Path.mkdir, []
+
+    def make_late(path, *arguments, **options):
+        calls.append(path)
+        if len(calls) == 1:
+            raise FileExistsError(errno.EEXIST, "it was there", str(path))
+        make(path, *arguments, **options)
+
+    monkeypatch.setattr(pathlib.Path, "mkdir", make_late)
+    with Lock(tmp_path / "run"):
+        assert len(calls) > 1 and (tmp_path / "run" / LOCK).exists()
+
+
+@pytest.mark.parametrize("there", ["a", "a/b"])
+def test_a_file_in_place_of_a_folder_is_no_folder(tmp_path, there):
+    (tmp_path / there).parent.mkdir(exist_ok=True)
+    (tmp_path / there).write_text("mine")
+    with pytest.raises(OSError), Lock(tmp_path / "a" / "b"):
+        pass
+    assert (tmp_path / there).read_text() == "mine"
 
 
 def test_a_file_system_without_locks_is_worked_on_without(tmp_path, monkeypatch):
