@@ -22,7 +22,7 @@ def advance(team, timer, model, bodies, pairs, spare, cells, workspace, tally, l
     after; a step of dt = 0 moves nothing and only evaluates the loads. team: `jit.Alone` or `jit.Team`; timer: `jit.NoTimer`, or
     `jit.Timer` for benchmarks; span: bodies that nothing can touch take up to so many steps in one, 1 for the plain scheme.
     """
-    status, goal, dt = DONE, clock.step[0] + steps, clock.dt[0]
+    m, status, goal, dt = model, DONE, clock.step[0] + steps, clock.dt[0]
     while status == DONE and clock.step[0] < goal:
         lap(timer, -1)
         if longest_path(bodies) >= pairs.limit[0] and not find_pairs(model, bodies, pairs, spare, cells, clock):
@@ -38,15 +38,20 @@ def advance(team, timer, model, bodies, pairs, spare, cells, workspace, tally, l
                 status = TOO_FAST
                 break
             lap(timer, DRIFT)
-            tick(clock)
+            tick(clock, workspace)
             clock.moves[0] += busy
-            awake, at_structure = awake_pairs(near, model.structure_of, bodies, pairs, workspace)
+            awake, at_structure = awake_pairs(near, m.structure_of, bodies, pairs, workspace)
             lap(timer, WAKE)
-            collide_pairs(team, awake, dt, model, bodies, pairs, workspace, tally)
+            collide_pairs(
+                team, awake, dt, m.structure_of, m.shapes, m.solids, m.contact, m.surroundings, bodies, pairs, workspace, tally
+            )
             lap(timer, COLLIDE)
-            float_and_kick(team, workspace.busy, busy, awake, dt, clock.time[0], model, bodies, pairs, workspace)
+            float_and_kick(
+                team, workspace.busy, busy, awake, dt, clock.time[0], m.floating, m.hulls, m.solids, m.loads, bodies, pairs,
+                workspace,
+            )  # fmt: skip
             lap(timer, FLOAT)
-            load_structures(at_structure, dt, model.structure_of, model.charts, bodies, pairs, workspace, loads)
+            load_structures(at_structure, dt, m.structure_of, m.charts, bodies, pairs, workspace, loads)
             record_loads(loads)
             end_window(clock.step[0], loads, windows)
             if too_deep(tally, pairs, clock):
@@ -57,10 +62,12 @@ def advance(team, timer, model, bodies, pairs, spare, cells, workspace, tally, l
         spent = (clock.step[0] - start) * dt
         if not drift_bodies(team, workspace.idle, idle, spent, model, bodies, pairs, workspace, clock):
             status = TOO_FAST
-        float_and_kick(team, workspace.idle, idle, 0, spent, clock.time[0], model, bodies, pairs, workspace)
+        float_and_kick(
+            team, workspace.idle, idle, 0, spent, clock.time[0], m.floating, m.hulls, m.solids, m.loads, bodies, pairs, workspace
+        )
         lap(timer, IDLE)
     close_tally(tally, ledger, loads, clock)
     complete_spins(model, bodies)
     book_energies(model, bodies, pairs, workspace, ledger)
-    clock.frequency[0] = assembled_frequency(model.solids, bodies, pairs, workspace)
+    clock.frequency[0] = assembled_frequency(m.solids, bodies, pairs, workspace)
     return status

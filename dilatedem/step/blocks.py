@@ -25,7 +25,7 @@ def part(count, block, blocks):
 
 
 @item
-def drift_block(team, block, blocks, chosen, count, dt, reach, solids, bodies, pairs, workspace):
+def drift_block(team, chosen, count, dt, reach, solids, bodies, pairs, workspace, block=0, blocks=1):
     """Move the bodies of a part; one that moved too far, and whether one has passed its horizon, go to the block's places."""
     path, horizon = bodies.path, workspace.horizon
     adrift = dt * sqrt(pairs.frame[0] ** 2 + pairs.frame[1] ** 2)
@@ -46,7 +46,7 @@ def drift_block(team, block, blocks, chosen, count, dt, reach, solids, bodies, p
 
 @item
 def collide_block(
-    team, block, blocks, count, dt, structure_of, shapes, solids, contact, surroundings, bodies, pairs, workspace, tally
+    team, count, dt, structure_of, shapes, solids, contact, surroundings, bodies, pairs, workspace, tally, block=0, blocks=1
 ):
     """Evaluate and book the awake pairs of some parts of the tally, in a clipping workspace of this block's own."""
     first_part, last_part = part(len(tally.deep), block, blocks)
@@ -80,7 +80,9 @@ def _turn_shapes(block, k, shapes, orientation, pairs, workspace):
 
 
 @item
-def float_block(team, block, blocks, chosen, count, awake, dt, time, floating, hulls, solids, setting, bodies, pairs, workspace):
+def float_block(
+    team, chosen, count, awake, dt, time, floating, hulls, solids, setting, bodies, pairs, workspace, block=0, blocks=1
+):
     """All loads on the bodies of a part, and the second half of their kick; dt = 0: the loads alone."""
     first, last = part(count, block, blocks)
     if first == last:

@@ -1,7 +1,9 @@
 """The stages of a step over whole lists: alone, or shared by a team of threads.
 
 A parallel loop's body is one call of an ordinary function: writes through a NamedTuple *inside* a prange would be lost without an
-error. It takes NamedTuples only as arguments, and none inside another, so the model is unpacked here.
+error. It takes NamedTuples only as arguments, and none inside another, so `advance` hands on the parts of the model. Every layer of
+calls above the stages is compiled once more with all that is below it, so `advance` calls the stages themselves (`jit.by_type`):
+alone, a stage is one block of one.
 """
 
 from dilatedem.jit import Team, by_type, item, prange, shared_loop
@@ -11,8 +13,9 @@ from dilatedem.step.blocks import collide_block, drift_block, float_block
 
 
 @item
-def tick(clock):
-    """A step is done, and it is later."""
+def tick(clock, workspace):
+    """A step is done: it is later, and no shape is turned to this instant yet."""
+    workspace.instant[0] += 1
     clock.step[0] += 1
     clock.time[0] = clock.since_time[0] + (clock.step[0] - clock.since_step[0]) * clock.dt[0]
 
@@ -35,10 +38,10 @@ def complete_spins(model, bodies):
 
 
 @shared_loop
-def _drift_shared(team, block, blocks, chosen, count, dt, reach, solids, bodies, pairs, workspace):
+def _drift_shared(team, chosen, count, dt, reach, solids, bodies, pairs, workspace, block=0, blocks=1):
     parts = team.threads
     for each in prange(parts):
-        drift_block(team, each, parts, chosen, count, dt, reach, solids, bodies, pairs, workspace)
+        drift_block(team, chosen, count, dt, reach, solids, bodies, pairs, workspace, each, parts)
 
 
 _drift_all = by_type(drift_block, {Team: _drift_shared})
@@ -47,7 +50,7 @@ _drift_all = by_type(drift_block, {Team: _drift_shared})
 @item
 def drift_bodies(team, chosen, count, dt, model, bodies, pairs, workspace, clock):
     """Move the first `count` of the bodies in `chosen`; True, or False with the culprit in `clock` where one moves too far."""
-    _drift_all(team, 0, 1, chosen, count, dt, model.shapes.reach, model.solids, bodies, pairs, workspace)
+    _drift_all(team, chosen, count, dt, model.shapes.reach, model.solids, bodies, pairs, workspace)
     for block in range(len(workspace.fault)):
         i = workspace.fault[block]
         if i >= 0:
@@ -68,44 +71,29 @@ def surprised(workspace):
 
 @shared_loop
 def _collide_shared(
-    team, block, blocks, count, dt, structure_of, shapes, solids, contact, surroundings, bodies, pairs, workspace, tally
+    team, count, dt, structure_of, shapes, solids, contact, surroundings, bodies, pairs, workspace, tally, block=0, blocks=1
 ):
     parts = team.threads
     for each in prange(parts):
         collide_block(
-            team, each, parts, count, dt, structure_of, shapes, solids, contact, surroundings, bodies, pairs, workspace, tally
+            team, count, dt, structure_of, shapes, solids, contact, surroundings, bodies, pairs, workspace, tally, each, parts
         )
 
 
-_collide_all = by_type(collide_block, {Team: _collide_shared})
-
-
-@item
-def collide_pairs(team, count, dt, model, bodies, pairs, workspace, tally):
-    """Evaluate the awake pairs, `count` of them; what they cost and showed goes to the tally."""
-    m = model
-    workspace.instant[0] += 1
-    _collide_all(
-        team, 0, 1, count, dt, m.structure_of, m.shapes, m.solids, m.contact, m.surroundings, bodies, pairs, workspace, tally
-    )
+#: Evaluate the awake pairs, `count` of them; what they cost and showed goes to the tally.
+collide_pairs = by_type(collide_block, {Team: _collide_shared})
 
 
 @shared_loop
 def _float_shared(
-    team, block, blocks, chosen, count, awake, dt, time, floating, hulls, solids, setting, bodies, pairs, workspace
+    team, chosen, count, awake, dt, time, floating, hulls, solids, setting, bodies, pairs, workspace, block=0, blocks=1
 ):
     parts = team.threads
     for each in prange(parts):
         float_block(
-            team, each, parts, chosen, count, awake, dt, time, floating, hulls, solids, setting, bodies, pairs, workspace
+            team, chosen, count, awake, dt, time, floating, hulls, solids, setting, bodies, pairs, workspace, each, parts
         )
 
 
-_float_all = by_type(float_block, {Team: _float_shared})
-
-
-@item
-def float_and_kick(team, chosen, count, awake, dt, time, model, bodies, pairs, workspace):
-    """All loads at `time` on the first `count` bodies in `chosen`, contacts among the `awake` pairs; the end of their kick."""
-    m = model
-    _float_all(team, 0, 1, chosen, count, awake, dt, time, m.floating, m.hulls, m.solids, m.loads, bodies, pairs, workspace)
+#: All loads at `time` on the first `count` bodies in `chosen`, contacts among the `awake` pairs; the end of their kick.
+float_and_kick = by_type(float_block, {Team: _float_shared})
