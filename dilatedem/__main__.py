@@ -1,6 +1,6 @@
 """The command `dilatedem`, and `python -m dilatedem`."""
 
-from dilatedem import interrupts
+from dilatedem.processes import interrupts
 
 
 def main() -> None:

@@ -12,10 +12,11 @@ from typing import Annotated, Any
 
 import typer
 
-from dilatedem import __version__, interrupts, lifeline
+from dilatedem import __version__
 from dilatedem.errors import CaseError, Interrupted, SimulationStopped, printable
 from dilatedem.files.faults import FULL, sentence
 from dilatedem.garbage import seldom_collected
+from dilatedem.processes import interrupts, lifeline
 
 EXIT_WRONG = 2
 EXIT_STOPPED = 3

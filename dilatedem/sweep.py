@@ -19,17 +19,17 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from dilatedem import lifeline
 from dilatedem.case import grid, load, write
 from dilatedem.case.overrides import Override, parse
 from dilatedem.case.schema import Case
-from dilatedem.children import Children, heard, say
 from dilatedem.errors import CaseError, Interrupted, SimulationStopped
 from dilatedem.files.atomic import write_text
 from dilatedem.files.faults import told_as
 from dilatedem.files.lock import Lock, in_use
 from dilatedem.files.whose import refuse_foreign, refuse_links
 from dilatedem.output import folder
+from dilatedem.processes import lifeline
+from dilatedem.processes.children import Children, heard, say
 from dilatedem.results.files import read_summary
 
 TABLE = "sweep.csv"
@@ -199,7 +199,7 @@ def _compile_once(models: set[str], line: int) -> None:
     left to the cases, which meet the same fault and report it.
     """
     for model in sorted(models):
-        program = "from dilatedem import lifeline; lifeline.watch(); from dilatedem.run.loop import compile_kernels; "
+        program = "from dilatedem.processes import lifeline; lifeline.watch(); from dilatedem.run.loop import compile_kernels; "
         command = [sys.executable, "-c", f"{program}compile_kernels(model={model!r})"]
         given = lifeline.given(line, os.environ)
         subprocess.run(command, stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL, check=False, **given)

@@ -12,10 +12,10 @@ from dilatedem.files.lock import Lock
 from dilatedem.jit import start_threads
 from dilatedem.output import folder
 from dilatedem.output.progress import Progress
+from dilatedem.processes.interruption import Interruption
 from dilatedem.results.files import read_summary
 from dilatedem.results.run import Run
 from dilatedem.run.faults import fault
-from dilatedem.run.interruption import Interruption
 from dilatedem.run.observers import RunFolder
 from dilatedem.run.pace import total_steps
 from dilatedem.run.restore import load_checkpoint

@@ -12,8 +12,8 @@ from folders import CASES, assert_same_run, command, environment, in_process, sa
 
 from dilatedem.case.load import load
 from dilatedem.errors import CaseError, Interrupted
+from dilatedem.processes.interruption import Interruption
 from dilatedem.run import loop
-from dilatedem.run.interruption import Interruption
 
 
 class AskedAfter(Interruption):

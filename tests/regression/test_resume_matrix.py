@@ -10,8 +10,8 @@ from folders import assert_same_run
 
 from dilatedem.case.schema import Case
 from dilatedem.errors import Interrupted
+from dilatedem.processes.interruption import Interruption
 from dilatedem.run import loop
-from dilatedem.run.interruption import Interruption
 
 MODELS = ("liu2015", "consistent")
 BOUNDARIES = (("open", "periodic"), ("periodic", "periodic"), ("wall", "open"), ("outflow", "wall"))

@@ -175,7 +175,7 @@ def test_the_cases_of_a_killed_sweep_save_their_state_and_end(tmp_path):
 
 
 def test_a_process_without_a_parent_to_watch_is_left_alone():
-    program = "from dilatedem import lifeline; lifeline.watch(); print('here')"
+    program = "from dilatedem.processes import lifeline; lifeline.watch(); print('here')"
     told = {**environment(), "DILATEDEM_LIFELINE": "77"}  # no such descriptor
     done = subprocess.run([sys.executable, "-c", program], env=told, capture_output=True, text=True, check=True)
     assert (done.stdout, done.stderr) == ("here\n", "")

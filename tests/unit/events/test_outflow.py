@@ -10,9 +10,9 @@ import pytest
 from dilatedem.case.load import load
 from dilatedem.case.schema import Case
 from dilatedem.errors import CaseError, Interrupted
+from dilatedem.processes.interruption import Interruption
 from dilatedem.results.load import load as results
 from dilatedem.run import loop
-from dilatedem.run.interruption import Interruption
 from dilatedem.run.simulation import Simulation
 
 CROWDED = Path(__file__).parents[2] / "cases" / "crowded.toml"

@@ -9,9 +9,9 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from typing import Any
 
-from dilatedem import lifeline
 from dilatedem.errors import printable
-from dilatedem.run.interruption import Interruption
+from dilatedem.processes import lifeline
+from dilatedem.processes.interruption import Interruption
 
 
 class Children:

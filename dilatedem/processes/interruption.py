@@ -3,7 +3,7 @@
 import signal
 import threading
 
-from dilatedem.interrupts import end_at_once
+from dilatedem.processes.interrupts import end_at_once
 
 
 class Interruption:
