@@ -14,9 +14,9 @@ from dilatedem.post.plan import (
     DRIFT_SHOWN,
     View,
     choose_view,
-    draw_current,
     draw_domain,
     draw_floes,
+    draw_flows,
     draw_structures,
     dress,
 )
@@ -41,7 +41,7 @@ def field_figure(run: RunFolder, outlines: list[np.ndarray]) -> Drawing:
     figure = new_figure(width, panel_height(view, width))
     axes = figure.add_subplot()
     draw_scene(axes, run, outlines, view, fixed=fixed_floes(run, np.arange(len(outlines))))
-    draw_current(axes, run)
+    draw_flows(axes, run)
     axes.set_title(f"{len(outlines)} floes at t = 0")
     size = ""
     if run.floes is not None and len(run.floes.plan_area):
@@ -64,7 +64,7 @@ def plan_figure(run: RunFolder, snapshots: list[Snapshot]) -> Drawing:
     for axes, snapshot in zip(panels, snapshots, strict=True):
         draw_scene(axes, run, snapshot.outlines, view, fixed=fixed_floes(run, snapshot.body))
         axes.set_title(f"t = {number(snapshot.time)} s")
-    draw_current(panels[0], run)
+    draw_flows(panels[0], run)
     words = f"{scene_words(run)}.{drift_words(run)}"
     caption = f"The ice in plan at {time_words(snapshots)}, true to scale, {words}"
     return Drawing("plan", "Ice field in time", caption, figure)
@@ -85,7 +85,7 @@ def speed_figure(run: RunFolder, snapshots: list[Snapshot]) -> Drawing:
         draw_structures(axes, run)
         axes.set_title(f"t = {number(snapshot.time)} s")
         fastest = max(fastest, float(snapshot.speed.max(initial=0.0)))
-    draw_current(panels[0], run)
+    draw_flows(panels[0], run)
     beyond = fastest > 1.001 * highest
     if floes is not None:
         place = {"shrink": 0.6, "aspect": 30, "pad": 0.015}
@@ -149,8 +149,9 @@ def scene_words(run: RunFolder) -> str:
         words.append("unbounded ones hatched on their solid side")
     sides = dict.fromkeys(SIDES.get(kind, kind) for kind in run.boundaries)
     words.append(f"the domain's sides {' and '.join(sides)}")
-    if math.hypot(*run.current) > 0.0:
-        words.append("the arrow gives the current")
+    flows = [what for what, velocity in (("current", run.current), ("wind", run.wind)) if any(velocity)]
+    if flows:
+        words.append(f"the arrow{'s give' if len(flows) > 1 else ' gives'} the {' and the '.join(flows)}")
     return "; ".join(words)
 
 

@@ -136,16 +136,18 @@ def draw_structures(axes: Axes, run: RunFolder) -> None:
         axes.plot(*outline[:2].T, color=STRUCTURE_EDGE, linewidth=1.4, zorder=4, scalex=False, scaley=False)
 
 
-def draw_current(axes: Axes, run: RunFolder) -> None:
-    """Speed and direction of the current, above the upper right corner of the axes."""
-    u, v = run.current
-    speed = math.hypot(u, v)
-    if speed == 0.0:
-        return
-    corner = {"xy": (1.0, 1.0), "xycoords": "axes fraction", "textcoords": "offset points", "va": "center"}
-    arrow = {"fontsize": 17.0, "ha": "center", "rotation": math.degrees(math.atan2(v, u))}
-    axes.annotate("\N{LONG RIGHTWARDS ARROW}", xytext=(-13.0, 12.0), **arrow, **corner)
-    axes.annotate(f"current {speed:.3g} m/s", xytext=(-30.0, 11.0), ha="right", **corner)
+def draw_flows(axes: Axes, run: RunFolder) -> None:
+    """Speed and direction of the current and of the wind, above the upper right corner of the axes."""
+    height = 12.0
+    for what, (u, v) in (("current", run.current), ("wind", run.wind)):
+        speed = math.hypot(u, v)
+        if speed == 0.0:
+            continue
+        corner = {"xy": (1.0, 1.0), "xycoords": "axes fraction", "textcoords": "offset points", "va": "center"}
+        arrow = {"fontsize": 17.0, "ha": "center", "rotation": math.degrees(math.atan2(v, u))}
+        axes.annotate("\N{LONG RIGHTWARDS ARROW}", xytext=(-13.0, height), **arrow, **corner)
+        axes.annotate(f"{what} {speed:.3g} m/s", xytext=(-30.0, height - 1.0), ha="right", **corner)
+        height += 19.0
 
 
 def dress(axes: Axes, run: RunFolder, view: View, *, water: str | None = None) -> None:

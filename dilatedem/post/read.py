@@ -52,10 +52,17 @@ class RunFolder:
     @property
     def current(self) -> tuple[float, float]:
         """Velocity of the water [m/s]; zero where the water is switched off."""
-        water = self.case.get("water", {})
-        if not water.get("enabled", True):
+        return self._velocity_of("water")
+
+    @property
+    def wind(self) -> tuple[float, float]:
+        """Velocity of the wind [m/s]; zero where the water is switched off, out of which floes would stand."""
+        return self._velocity_of("wind")
+
+    def _velocity_of(self, what: str) -> tuple[float, float]:
+        if not self.case.get("water", {}).get("enabled", True):
             return 0.0, 0.0
-        velocity = water.get("velocity", (0.0, 0.0))
+        velocity = self.case.get(what, {}).get("velocity", (0.0, 0.0))
         return float(velocity[0]), float(velocity[1])
 
     @property

@@ -65,6 +65,14 @@ def test_plan_views_are_true_to_scale_and_hold_every_floe(run):
         assert len(axes.collections[0].get_paths()) >= len(run.floes.outlines)
 
 
+def test_plan_views_show_current_and_wind(run):
+    windy = replace(run, case=run.case | {"wind": {"velocity": [8.0, 6.0]}})
+    calm, blown = ([text.get_text() for text in field_figure(of, of.floes.outlines).figure.axes[0].texts] for of in (run, windy))
+    assert "current 0.3 m/s" in calm and not any("wind" in words for words in calm)
+    assert "current 0.3 m/s" in blown and "wind 10 m/s" in blown
+    assert "the arrows give the current and the wind" in field_figure(windy, run.floes.outlines).caption
+
+
 def test_speed_map_has_one_scale_for_all_times(run):
     drawing = speed_figure(run, snapshots_at(run, (0.0, 1.0)))
     panels = [axes for axes in drawing.figure.axes if axes.collections and axes.get_title("left")]
