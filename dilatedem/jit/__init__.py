@@ -16,10 +16,10 @@ does not offer them: saving machine code one process after the other (`cache.ten
 from dilatedem.jit.cache import LOCK, is_cached, source_digest
 from dilatedem.jit.decorators import by_type, device, item, kernel, shared_loop
 from dilatedem.jit.prefetch import CACHE_LINE, prefetch
-from dilatedem.jit.threads import Alone, Team, prange, start_threads
+from dilatedem.jit.threads import Alone, Team, prange, share_among, start_threads
 from dilatedem.jit.timer import NoTimer, Timer, lap, timer_of
 
 __all__ = [
     "CACHE_LINE", "LOCK", "Alone", "NoTimer", "Team", "Timer", "by_type", "device", "is_cached", "item", "kernel", "lap", "prange",
-    "prefetch", "shared_loop", "source_digest", "start_threads", "timer_of",
+    "prefetch", "share_among", "shared_loop", "source_digest", "start_threads", "timer_of",
 ]  # fmt: skip

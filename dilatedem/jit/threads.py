@@ -34,3 +34,9 @@ def start_threads(count: int) -> str:
         raise ValueError(f"threads = {count}: this machine offers {most}")
     numba.set_num_threads(count)
     return numba.threading_layer()
+
+
+def share_among(count: int) -> None:
+    """From now on so many of the threads that were made ready share the parallel loops."""
+    if count != numba.get_num_threads():
+        numba.set_num_threads(count)

@@ -132,9 +132,9 @@ def _loop(simulation: Simulation, files: RunFolder, steps: int, progress: Progre
         if interruption.asked and now < steps:
             files.interrupt()
             raise Interrupted(f"interrupted at t = {simulation.time_s:.4f} s; the state is saved, --resume goes on from it")
-    found = files.complete(lambda: interruption.asked)
-    if found:
-        progress.message(found)
+    for said in (simulation.crew.remark(), files.complete(lambda: interruption.asked)):
+        if said:
+            progress.message(said)
 
 
 def _stop_on_fault(simulation: Simulation, files: RunFolder, status: Status) -> None:

@@ -217,6 +217,7 @@ class RunFolder:
             "dt_over_critical_of_open_contacts": told["dt_over_critical_of_open_contacts"], "simulated_s": simulation.time_s,
             "duration_s": case.time.duration, "wall_s": self._wall_s, "compile_s": self._compile_s,
             "steps_per_s": step / stepping_s if stepping_s > 0.0 else None, "threads": simulation.threads,
+            "threads_at_work": simulation.crew.mean,
         } | told | {
             "contact": {
                 "model": case.contact.model, "open": simulation.contacts,

@@ -1,6 +1,7 @@
 """A simulation: a case as arrays, and the kernels that advance them. No physics of its own, and no files."""
 
 import math
+import time
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -11,9 +12,10 @@ from dilatedem.errors import CaseError, SimulationStopped
 from dilatedem.events.event import Event
 from dilatedem.events.kinds import events_of
 from dilatedem.geometry.shapes import Hulls, Shapes
-from dilatedem.jit import Alone, NoTimer, Team, Timer, is_cached, start_threads
+from dilatedem.jit import Alone, NoTimer, Team, Timer, is_cached, share_among, start_threads
 from dilatedem.motion.timestep import critical_step
 from dilatedem.run.advice import advice
+from dilatedem.run.crew import Crew
 from dilatedem.run.error_check import Watch
 from dilatedem.run.faults import fault
 from dilatedem.run.pace import free_span, time_step
@@ -82,9 +84,10 @@ class Simulation:
     workspace: Workspace = field(init=False)
     tally: Tally = field(init=False)
     windows: Windows = field(init=False)
+    crew: Crew = field(init=False)  # of its threads, those that work
 
     def __post_init__(self):
-        self.events = events_of(self)
+        self.events, self.crew = events_of(self), Crew(self.threads)
         self.cells, self.tally = make_cells(self.model.floating), empty_tally()
         self.windows = no_windows(len(self.state.loads.step_contacts))
         self.make_room()
@@ -203,11 +206,17 @@ class Simulation:
             status = self.evaluate()
             if status != Status.DONE:
                 return status
-        return self._advance(steps, dt=self.dt)
+        goal, status = int(self.state.clock.step[0]) + steps, Status.DONE
+        while status == Status.DONE and (step := int(self.state.clock.step[0])) < goal:
+            part, began = self.crew.part(step, goal - step, self.span), time.perf_counter()
+            status = self._advance(part, dt=self.dt)
+            self.crew.took(part, time.perf_counter() - began)
+        return status
 
     def _advance(self, steps: int, *, dt: float) -> Status:
         clock = self.state.clock
         clock.dt[0], goal = dt, int(clock.step[0]) + steps
+        share_among(self.crew.now)
         while True:
             status = Status(advance(*self._arguments(), self.span, goal - int(clock.step[0])))
             if status != Status.PAIRS_FULL:
@@ -235,7 +244,7 @@ class Simulation:
         return is_cached(advance, *self._arguments(), self.span, 1)
 
     def _arguments(self) -> tuple:
-        team = Alone() if self.threads == 1 else Team(self.threads)
+        team = Alone() if self.threads == 1 else Team(self.crew.now)
         state = self.state
         return (
             team, self.timer, self.model, state.bodies, state.pairs, self.spare, self.cells, self.workspace, self.tally,

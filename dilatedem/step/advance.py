@@ -56,7 +56,7 @@ def advance(team, timer, model, bodies, pairs, spare, cells, workspace, tally, l
             end_window(clock.step[0], loads, windows)
             if too_deep(tally, pairs, clock):
                 status = TOO_DEEP
-            if status != DONE or surprised(workspace):
+            if status != DONE or surprised(team, workspace):
                 break
             lap(timer, RECORD)
         spent = (clock.step[0] - start) * dt

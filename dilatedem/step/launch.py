@@ -51,7 +51,7 @@ _drift_all = by_type(drift_block, {Team: _drift_shared})
 def drift_bodies(team, chosen, count, dt, model, bodies, pairs, workspace, clock):
     """Move the first `count` of the bodies in `chosen`; True, or False with the culprit in `clock` where one moves too far."""
     _drift_all(team, chosen, count, dt, model.shapes.reach, model.solids, bodies, pairs, workspace)
-    for block in range(len(workspace.fault)):
+    for block in range(team.threads):
         i = workspace.fault[block]
         if i >= 0:
             clock.culprit[0], clock.culprit[1] = i, -1
@@ -61,9 +61,9 @@ def drift_bodies(team, chosen, count, dt, model, bodies, pairs, workspace, clock
 
 
 @item
-def surprised(workspace):
+def surprised(team, workspace):
     """Whether some body has got farther than it was taken to: others may meet it now that nobody looks at."""
-    for block in range(len(workspace.surprise)):
+    for block in range(team.threads):
         if workspace.surprise[block]:
             return True
     return False
