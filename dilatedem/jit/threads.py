@@ -1,11 +1,16 @@
 """Several threads, or one: the choice as types, by which kernels are compiled, and the layer that runs them."""
 
+import os
 from typing import NamedTuple
 
 import numba
 
 # OpenMP starts a parallel loop in 2 us, the other layers in 35 us and more; workqueue is the fallback that is always there.
 numba.config.THREADING_LAYER_PRIORITY = ["omp", "workqueue", "tbb"]
+
+#: How often a thread that waits for the others looks again before it gives its core away: half a millisecond. The OpenMP library's own
+#: choice, 300 000, is many of them, which are lost where the core has other work; none at all makes every loop wait for the system.
+SPINS = "10000"
 
 prange = numba.prange
 
@@ -32,6 +37,8 @@ def start_threads(count: int) -> str:
     most = numba.config.NUMBA_NUM_THREADS
     if count > most:
         raise ValueError(f"threads = {count}: this machine offers {most}")
+    if "OMP_WAIT_POLICY" not in os.environ:  # which says the same in other words
+        os.environ.setdefault("GOMP_SPINCOUNT", SPINS)  # read when the library is loaded, by the next line
     numba.set_num_threads(count)
     return numba.threading_layer()
 

@@ -5,7 +5,7 @@ few drifting floes are less work than sharing it. What pays is tried, for no num
 """
 
 #: time [s] by which both ways are compared
-SAMPLE_S = 0.05
+SAMPLE_S = 0.1
 #: a way must take less than this share of the other's time to be changed to
 QUICKER = 0.9
 #: time [s] until the other way is tried: at first and after a change, and at most, when it has failed again and again
