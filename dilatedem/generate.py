@@ -130,7 +130,7 @@ def _picture(case: Case, placed: Scene) -> Callable[[], bytes]:
         style = {"cmap": SIZE_MAP, "edgecolors": canvas.ICE_EDGE, "linewidths": 0.4}
         floes = plan.draw_floes(axes, scene, view, outlines, array=size, **style)
         plan.draw_structures(axes, scene)
-        plan.draw_current(axes, scene)
+        plan.draw_flows(axes, scene)
         bar = figure.colorbar(floes, ax=axes, shrink=0.85, pad=0.02)
         bar.set_label("Floe size, root of the plan area (m)")
         axes.set_title(_title(case, placed.count))

@@ -8,8 +8,8 @@ import numba
 # OpenMP starts a parallel loop in 2 us, the other layers in 35 us and more; workqueue is the fallback that is always there.
 numba.config.THREADING_LAYER_PRIORITY = ["omp", "workqueue", "tbb"]
 
-#: How often a thread that waits for the others looks again before it gives its core away: half a millisecond. The OpenMP library's own
-#: choice, 300 000, is many of them, which are lost where the core has other work; none at all makes every loop wait for the system.
+#: How often a thread that waits for the others looks again before it gives its core away: half a millisecond. The OpenMP library's
+#: own choice, 300 000, is many of them, which are lost where the core has other work; none at all makes every loop wait for the system.
 SPINS = "10000"
 
 prange = numba.prange
@@ -44,6 +44,7 @@ def start_threads(count: int) -> str:
 
 
 def share_among(count: int) -> None:
-    """From now on so many of the threads that were made ready share the parallel loops."""
+    """From now on so many threads share the parallel loops, or as many as there are: blocks that are more wait for their turn."""
+    count = min(count, numba.config.NUMBA_NUM_THREADS)
     if count != numba.get_num_threads():
         numba.set_num_threads(count)

@@ -1,7 +1,8 @@
 """How many threads of a run work at a time: all of them, or one while more of them do not pay.
 
-Where the processor's cores have other work, threads that share a step wait for each other, and take many times as long as one; a
-few drifting floes are less work than sharing it. What pays is tried, for no number depends on it.
+Where the processor's cores have other work, threads that share a step wait for each other, and take many times as long as one; a few
+drifting floes are less work than sharing it. What pays is tried, for no number depends on it: from one call of the kernels to the
+next, as sums are closed at the end of each.
 """
 
 #: time [s] by which both ways are compared
@@ -10,13 +11,12 @@ SAMPLE_S = 0.1
 QUICKER = 0.9
 #: time [s] until the other way is tried: at first and after a change, and at most, when it has failed again and again
 SOON_S, LATE_S = 1.0, 30.0
+#: and not before so many times the time that a comparison takes, where it is a long one
+SELDOM = 20.0
 #: a step that takes so many times as long as at the last trial, or so much less: the other way is tried soon
 CHANGED = 1.5
 #: shorter runs are over before anything need be said [s]
 WORTH_A_WORD_S = 5.0
-#: steps before anything is known of how long they take
-FIRST_STEPS = 100
-
 
 class Crew:
     """The threads of a run.
@@ -34,15 +34,6 @@ class Crew:
         self._trying = False
         self._usual = (0, 0.0)  # steps and s of the last sample of the way that was chosen
         self._sample = (0, 0.0)  # the same of the sample that is being taken
-
-    def part(self, step: int, steps: int, span: int) -> int:
-        """How many of `steps` steps, the first with number `step`, the present threads should do: all, or to a span's end."""
-        if self.most == 1:
-            return steps
-        done, seconds = self._usual
-        aim = SAMPLE_S / 4 if self._trying else 4 * SAMPLE_S  # a trial may take many times as long as it is taken to
-        wanted = int(aim * done / seconds) if seconds > 0.0 else FIRST_STEPS
-        return min(steps, -(-(step + max(1, wanted)) // span) * span - step)
 
     def took(self, steps: int, seconds: float) -> None:
         """So many steps took the present threads so long [s]."""
@@ -82,7 +73,7 @@ class Crew:
             self._usual = self._sample
             if not self._before / CHANGED < _cost(self._usual) < self._before * CHANGED:
                 self._patience = SOON_S
-            if self._since >= self._patience:
+            if self._since >= max(self._patience, SELDOM * self._usual[1]):
                 self._trying = True
                 self._change()
         self._sample = (0, 0.0)

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 
 from dilatedem.post.canvas import ICE_EDGE, STRUCTURE, STRUCTURE_EDGE, new_figure, styled
-from dilatedem.post.plan import View, draw_current, draw_domain, draw_floes, draw_structures, dress
+from dilatedem.post.plan import View, draw_domain, draw_floes, draw_flows, draw_structures, dress
 from dilatedem.results.snapshots import Snapshot, read_snapshot
 from validation.liu2015.figures import SHOWN_SEED, shown_run
 from validation.liu2015.ice import DRIFT, STRIP, empty_raster, rasterized, strips
@@ -40,7 +40,7 @@ def plan_views(ensemble: Ensemble, size: str) -> Figure | None:
             floes = draw_floes(axes, result.folder, view, snapshot.outlines, array=snapshot.speed, **look)
             draw_structures(axes, result.folder)
             axes.set_title(f"{result.run.model}, t = {snapshot.time:.3g} s" if axes is row[0] else f"t = {snapshot.time:.3g} s")
-        draw_current(row[-1], result.folder)
+        draw_flows(row[-1], result.folder)
     bar = figure.colorbar(floes, ax=panels, extend="max", shrink=0.7, aspect=35, pad=0.015)
     bar.set_label(f"Speed of the floes of {size} m, seed {SHOWN_SEED} (m/s)")
     return figure

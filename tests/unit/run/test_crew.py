@@ -6,23 +6,21 @@ import numpy as np
 import pytest
 
 from dilatedem.jit import start_threads
-from dilatedem.run.crew import LATE_S, SAMPLE_S, SOON_S, Crew
+from dilatedem.run.crew import LATE_S, SOON_S, Crew
 from dilatedem.run.simulation import Simulation
 
 CROWDED = Path(__file__).parents[2] / "cases" / "crowded.toml"
 
 
-def worked(crew: Crew, cost, seconds: float, span: int = 8) -> list[tuple[float, int]]:
-    """Time and number of threads of each part of a run of this length, where a step takes cost(time, threads) seconds."""
-    now, step, parts = 0.0, 0, []
+def worked(crew: Crew, cost, seconds: float, steps: int = 500) -> list[tuple[float, int]]:
+    """Time and number of threads of each call of so many steps in a run that takes so long, a step cost(time, threads) seconds."""
+    now, calls = 0.0, []
     while now < seconds:
-        part = crew.part(step, 10**9, span)
-        assert part > 0 and (step + part) % span == 0
-        parts.append((now, crew.now))
-        spent = part * cost(now, crew.now)
-        crew.took(part, spent)
-        now, step = now + spent, step + part
-    return parts
+        calls.append((now, crew.now))
+        spent = steps * cost(now, crew.now)
+        crew.took(steps, spent)
+        now += spent
+    return calls
 
 
 @pytest.mark.parametrize("quick,slow", [(1, 2), (2, 1)])
@@ -37,12 +35,11 @@ def test_the_quicker_way_is_found_and_the_other_one_tried_ever_less(quick, slow)
     assert late and min(np.diff(late)[np.diff(late) > 1.0], default=LATE_S) >= LATE_S - 1.0
 
 
-def test_a_trial_that_takes_far_longer_is_short():
+def test_long_calls_are_tried_seldom():
+    """Where a call takes 17 s with two threads and twice that with one."""
     crew = Crew(2)
-    worked(crew, lambda now, threads: 1e-5, 0.5)
-    assert crew.now == 2
-    worked(crew, lambda now, threads: 1e-5 if threads == 2 else 1e-2, 60.0)
-    assert crew.now == 2 and crew.alone_s < 20 * 8 * 1e-2 + 6 * SAMPLE_S / 4 * 1e3
+    calls = worked(crew, lambda now, threads: 17.0 / threads / 500, 5000.0)
+    assert 1 < sum(threads == 1 for _, threads in calls) < 0.06 * len(calls)
 
 
 def test_other_work_that_comes_and_goes_is_noticed():
@@ -67,17 +64,15 @@ def test_the_user_hears_of_threads_that_did_not_pay():
 
 def test_one_thread_is_never_anything_else():
     crew = Crew(1)
-    assert crew.part(3, 10**6, 8) == 10**6
     crew.took(10**6, 100.0)
     assert crew.now == 1 and crew.alone_s == 0.0 and crew.all_s == 100.0
 
 
 class Fickle(Crew):
-    """Changes after every few steps."""
+    """Changes after every call."""
 
-    def part(self, step, steps, span):
+    def took(self, steps, seconds):
         self.now = 3 - self.now
-        return min(steps, -(-(step + 1) // span) * span - step)
 
 
 @pytest.mark.parametrize("model", ["liu2015", "consistent"])
@@ -87,10 +82,11 @@ def test_no_number_depends_on_how_many_threads_worked(model):
         simulation = Simulation.from_case(CROWDED, threads=threads, **{"contact.model": model})
         start_threads(threads)
         simulation.crew = crew
-        simulation.step(400)
+        for _ in range(20):
+            simulation.step(400)
         found.append(simulation)
     one, two = found
-    assert one.contacts > 0
+    assert one.state.ledger.cost.any()
     for name, values in one.state.bodies._asdict().items():
         assert np.array_equal(values, getattr(two.state.bodies, name)), name
     assert one.energies() == two.energies()
