@@ -9,7 +9,7 @@ import numba
 numba.config.THREADING_LAYER_PRIORITY = ["omp", "workqueue", "tbb"]
 
 #: How often a thread that waits for the others looks again before it gives its core away: half a millisecond. The OpenMP library's
-#: own choice, 300 000, is many of them, which are lost where the core has other work; none at all makes every loop wait for the system.
+#: own choice, 300 000, is many of them, lost where the core has other work; none at all makes every loop wait for the system.
 SPINS = "10000"
 
 prange = numba.prange

@@ -1,8 +1,8 @@
 """How many threads of a run work at a time: all of them, or one while more of them do not pay.
 
-Where the processor's cores have other work, threads that share a step wait for each other, and take many times as long as one; a few
-drifting floes are less work than sharing it. What pays is tried, for no number depends on it: from one call of the kernels to the
-next, as sums are closed at the end of each.
+Where the processor's cores have other work, threads that share a step wait for each other, and take many times as long as one; a
+few drifting floes are less work than sharing it. What pays is tried, for no number depends on it: from one call of the kernels to
+the next, as sums are closed at the end of each.
 """
 
 #: time [s] by which both ways are compared
@@ -17,6 +17,7 @@ SELDOM = 20.0
 CHANGED = 1.5
 #: shorter runs are over before anything need be said [s]
 WORTH_A_WORD_S = 5.0
+
 
 class Crew:
     """The threads of a run.
