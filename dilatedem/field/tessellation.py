@@ -22,6 +22,8 @@ from dilatedem.numerics.plain import angle, norm
 # Width of the belt of copies around the domain at the first try, in mean spacings of the points. Too narrow a
 # belt is noticed and widened, so this only sets the cost.
 BELT = 4.0
+# Places along an edge of the grid whose squares Hilbert's curve goes through: a power of two.
+PLACES = 2**16
 # Corners of a cell nearer than this, relative to the mean spacing, are one corner: Voronoi vertices where
 # more than three cells meet (every one on a mirrored edge) come out of the hull several times, round-off
 # apart.
@@ -29,7 +31,7 @@ RESOLUTION = 1e-9
 
 
 def voronoi_cells(size: ArrayLike, count: int, periodic: Sequence[bool], seed: int | np.random.Generator) -> Outlines:
-    """Voronoi cells of `count` points drawn uniformly in the domain.
+    """Voronoi cells of `count` points drawn uniformly in the domain, numbered in space: neighbours have numbers that are near.
 
     size      (2,) [m], the domain, centred on the origin
     periodic  whether the x and the y boundaries are periodic; cells end at the others
@@ -40,8 +42,27 @@ def voronoi_cells(size: ArrayLike, count: int, periodic: Sequence[bool], seed: i
     size = np.asarray(size, dtype=float)
     if count < 1:
         raise ValueError(f"floe count = {count}: must be at least 1")
-    points = (np.random.default_rng(seed).random((count, 2)) - 0.5) * size
+    drawn = np.random.default_rng(seed).random((count, 2))
+    points = (drawn[order_in_space(drawn * size)] - 0.5) * size
     return cells_of_points(points, size, periodic)
+
+
+def order_in_space(points: np.ndarray) -> np.ndarray:
+    """(n,) order in which Hilbert's curve meets points (n, 2) of no negative coordinate: what is near in it is near in space.
+
+    The curve goes through all squares of a grid, quarter by quarter (Hilbert 1891); each quarter's is the whole one turned.
+    """
+    extent = float(points.max(initial=0.0)) or 1.0
+    x, y = np.minimum(points * (PLACES / extent), PLACES - 1).astype(np.int64).T
+    place, side = np.zeros(len(points), np.int64), PLACES // 2
+    while side:
+        right, upper = (x & side) > 0, (y & side) > 0
+        place += side * side * ((3 * right) ^ upper)
+        mirrored, turned = right & ~upper, ~upper
+        x, y = np.where(mirrored, PLACES - 1 - x, x), np.where(mirrored, PLACES - 1 - y, y)
+        x, y = np.where(turned, y, x), np.where(turned, x, y)
+        side //= 2
+    return np.argsort(place, kind="stable")
 
 
 def cells_of_points(points: np.ndarray, size: np.ndarray, periodic: Sequence[bool]) -> Outlines:

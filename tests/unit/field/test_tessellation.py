@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import shapely
 
-from dilatedem.field.tessellation import cells_of_points, voronoi_cells
+from dilatedem.field.tessellation import cells_of_points, order_in_space, voronoi_cells
 from dilatedem.geometry.outline import area, prepare
 
 BOUNDARIES = [(False, False), (True, False), (False, True), (True, True)]
@@ -65,3 +65,21 @@ def test_seed_fixes_the_cells():
 def test_no_cells():
     with pytest.raises(ValueError, match="at least 1"):
         voronoi_cells((50.0, 50.0), 0, (False, True), seed=1)
+
+
+def test_cells_are_numbered_along_a_curve_that_leaves_nothing_out():
+    """Hilbert's curve goes from a square of the grid to one beside it: of all squares of a grid, each step is one square long."""
+    grid = np.stack(np.meshgrid(np.arange(16.0), np.arange(16.0)), axis=-1).reshape(-1, 2)
+    shuffled = np.random.default_rng(1).permutation(grid + 0.5)
+    order = order_in_space(np.vstack([shuffled, [[16.0, 16.0]]]))  # a corner, so that squares of the grid are squares of the curve
+    along = shuffled[order[order < len(shuffled)]]
+    assert np.array_equal(np.unique(along, axis=0), np.unique(grid + 0.5, axis=0))
+    assert np.array_equal(np.abs(np.diff(along, axis=0)).sum(axis=1), np.ones(255))
+
+
+@pytest.mark.parametrize("size", [(100.0, 100.0), (200.0, 50.0)])
+def test_neighbours_have_numbers_that_are_near(size):
+    cells = voronoi_cells(size, 1000, (False, True), seed=3)
+    centre = np.array([outline.mean(axis=0) for outline in cells])
+    spacing = np.sqrt(size[0] * size[1] / 1000)
+    assert np.median(np.linalg.norm(np.diff(centre, axis=0), axis=1)) < 1.5 * spacing
