@@ -13,14 +13,10 @@ from typing import Annotated, Any
 import typer
 
 from dilatedem import __version__
-from dilatedem.errors import CaseError, Interrupted, SimulationStopped, printable
-from dilatedem.files.faults import FULL, sentence
+from dilatedem.endings import WRONG, ending
+from dilatedem.errors import CaseError, printable
 from dilatedem.garbage import seldom_collected
 from dilatedem.processes import interrupts, lifeline
-
-EXIT_WRONG = 2
-EXIT_STOPPED = 3
-EXIT_INTERRUPTED = 130
 
 app = typer.Typer(
     name="dilatedem",
@@ -53,18 +49,11 @@ def known_faults(command: Callable) -> Callable:
     def wrapped(*args: Any, **kwargs: Any) -> None:
         try:
             command(*args, **kwargs)
-        except CaseError as error:
-            _end(str(error), EXIT_WRONG)
-        except SimulationStopped as error:
-            _end(str(error), EXIT_STOPPED)
-        except Interrupted as error:
-            _end(str(error), EXIT_INTERRUPTED)
-        except KeyboardInterrupt:
-            _end("interrupted", EXIT_INTERRUPTED)
-        except OSError as error:
-            full = error.errno in FULL
-            way_on = "; make room and go on with --resume" if full and command.__name__ == "run" else ""
-            _end(f"{sentence(error)}{way_on}", EXIT_STOPPED if full else EXIT_WRONG)
+        except (Exception, KeyboardInterrupt) as error:
+            known = ending(error, can_resume=command.__name__ == "run")
+            if not known:
+                raise
+            _end(*known)
 
     return wrapped
 
@@ -259,7 +248,7 @@ def main() -> None:
     for number, argument in enumerate(sys.argv[1:], start=1):
         if fault := _unusable(argument):
             print(f"argument {number}, {printable(argument[:60])}: {fault}", file=sys.stderr)
-            sys.exit(EXIT_WRONG)
+            sys.exit(WRONG)
     lifeline.watch()
     with interrupts.heard_once(), seldom_collected():
         app()

@@ -1,15 +1,13 @@
-"""A grid of cases, each run by a process of its own into its own folder, and one table of what came out.
+"""A grid of cases, each run into its own folder by one of several processes, and one table of what came out.
 
-A process that dies takes only its own case with it, and the table names it. All cases are checked before
-anything is written, the kernels are compiled once before the first case starts, and every process works on
-one thread.
+A process runs one case after another (`worker`), on one thread; one that dies takes only its present case with it, and the table
+names that. All cases are checked before anything is written, and the kernels are compiled once before the first case starts.
 """
 
 import csv
 import io
 import json
 import os
-import subprocess
 import sys
 import time
 from collections.abc import Sequence
@@ -36,6 +34,9 @@ TABLE = "sweep.csv"
 
 # Of summary.json's loads, these go to the table, as <structure>_<load>.
 LOADS = ("fx_max_N", "fx_mean_N", "fy_max_N", "fy_min_N", "fh_max_N")
+
+# How a process is started that runs cases.
+WORKER = [sys.executable, "-m", "dilatedem.worker"]
 
 # So long a resumed sweep waits for cases that still save their state [s].
 PATIENCE_S = 10.0
@@ -99,8 +100,7 @@ def _sweep(todo: list[Job], out: Path, jobs: int | None, lock: Lock) -> Path:
     _write_table(todo, out)
     if waiting:
         with lifeline.held() as line:
-            _compile_once({job.case.contact.model for job in waiting}, line)
-            _run_all(todo, waiting, workers, out, line)
+            _run_all(todo, waiting, workers, out, Children(WORKER, line))
     unfinished = [job for job in todo if job.status != "completed"]
     if unfinished:
         names = "\n".join(f"  {job.folder.name}: {job.status}: {job.message}" for job in unfinished)
@@ -192,35 +192,22 @@ def _core_count() -> int:
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
-def _compile_once(models: set[str], line: int) -> None:
-    """Fills Numba's cache for some contact models, or every case would compile the same kernels at the same time.
-
-    Done by a process of its own, so that an interrupt ends it and its memory is given back. Its failure is
-    left to the cases, which meet the same fault and report it.
-    """
-    for model in sorted(models):
-        program = "from dilatedem.processes import lifeline; lifeline.watch(); from dilatedem.run.loop import compile_kernels; "
-        command = [sys.executable, "-c", f"{program}compile_kernels(model={model!r})"]
-        given = lifeline.given(line, os.environ)
-        subprocess.run(command, stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL, check=False, **given)
+def _order(job: Job) -> dict[str, Any]:
+    """What a worker is asked to run."""
+    resume = (job.folder / "restart.h5").exists()
+    overwrite = not resume and job.folder.exists()  # killed before its first saved state
+    return {"case": write.dump(job.case), "out": str(job.folder), "resume": resume, "overwrite": overwrite}
 
 
-def _command(job: Job) -> list[str]:
-    """The command of one case, which it reads from its standard input."""
-    command = [sys.executable, "-m", "dilatedem.cli", "run", "-", "--out", str(job.folder), "--quiet"]
-    if (job.folder / "restart.h5").exists():
-        command.append("--resume")
-    elif job.folder.exists():
-        command.append("--overwrite")  # killed before its first saved state
-    return command
-
-
-def _run_all(todo: list[Job], waiting: list[Job], workers: int, out: Path, line: int) -> None:
+def _run_all(todo: list[Job], waiting: list[Job], workers: int, out: Path, children: Children) -> None:
     """Runs the waiting cases, `workers` at a time; the table is up to date after each."""
-    children = Children(line)
     with heard(children), ThreadPoolExecutor(workers) as pool:
-        futures = {pool.submit(_run, job, children): job for job in waiting}
         try:
+            children.prepare(workers)
+            for model in sorted({job.case.contact.model for job in waiting}):
+                # by one, or all would compile the same kernels; its failure is left to the cases, which meet and report it
+                children.run({"compile": model})
+            futures = {pool.submit(_run, job, children): job for job in waiting}
             for done, future in enumerate(as_completed(futures), start=1):
                 future.result()
                 job = futures[future]
@@ -231,6 +218,8 @@ def _run_all(todo: list[Job], waiting: list[Job], workers: int, out: Path, line:
         except BaseException:  # the disk refused something: what cannot be noted is not gone on with
             children.interrupt()
             raise
+        finally:
+            children.dismiss()
     if children.stopping:
         finished = sum(job.status == "completed" for job in todo)
         raise Interrupted(f"{out}: interrupted with {finished} of {len(todo)} cases completed; --resume goes on")
@@ -238,7 +227,7 @@ def _run_all(todo: list[Job], waiting: list[Job], workers: int, out: Path, line:
 
 def _run(job: Job, children: Children) -> None:
     """Runs one case to its end and notes on the job how it ended."""
-    ended = children.run(_command(job), write.dump(job.case))
+    ended = children.run(_order(job))
     if ended:
         job.status, job.message, said = ended
         if job.status == "failed":

@@ -1,13 +1,15 @@
-"""The processes of a sweep: one a case, told to stop when the sweep is, and gone when it is gone."""
+"""The processes of a sweep: each runs one case after another, is told to stop when the sweep is, and gone when it is gone."""
 
+import json
 import os
 import signal
 import subprocess
 import sys
+import tempfile
 import threading
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
-from typing import Any
+from typing import IO, Any
 
 from dilatedem.errors import printable
 from dilatedem.processes import lifeline
@@ -15,50 +17,97 @@ from dilatedem.processes.interruption import Interruption
 
 
 class Children:
-    """Cases that are running now, so that they can be told to stop.
+    """Processes of one command that carry out orders: a line of JSON to each, another one back with `code` and `said`.
 
-    line : the descriptor of a lifeline (`lifeline.held`), which every case gets.
+    command : starts such a process. line : the descriptor of a lifeline (`lifeline.held`), which every one gets.
     """
 
-    def __init__(self, line: int):
-        self._line = line
+    def __init__(self, command: Sequence[str], line: int):
+        self._command = command
+        self._environment = lifeline.given(line, {**os.environ, "NUMBA_NUM_THREADS": "1"})
         self._lock = threading.RLock()  # a signal may come while its thread has it
-        self._running: set[subprocess.Popen] = set()
+        self._idle: list[_Child] = []
+        self._busy: set[_Child] = set()
         self.stopping = False
 
-    def run(self, command: Sequence[str], text: str) -> tuple[str, str, str] | None:
-        """Runs a case, whose standard input is `text`, to its end: status, message, all it said. None where all are to stop."""
-        environment = {**os.environ, "NUMBA_NUM_THREADS": "1"}
+    def prepare(self, count: int) -> None:
+        """Start so many: they load what they need while nothing is asked of them."""
+        self._idle = [_Child(self._command, self._environment) for _ in range(count)]
+
+    def run(self, order: dict[str, Any]) -> tuple[str, str, str] | None:
+        """Has an order carried out: status, message, all that was said. None where all are to stop."""
         with self._lock:
             if self.stopping:
                 return None
-            # A session of its own: a Ctrl-C in the terminal reaches the children through us, and once only.
-            process = subprocess.Popen(
-                command,
-                stdin=subprocess.PIPE,
-                stdout=subprocess.DEVNULL,
-                stderr=subprocess.PIPE,
-                text=True,
-                start_new_session=True,
-                **lifeline.given(self._line, environment),
-            )
-            self._running.add(process)
-        _, said = process.communicate(text)
+            child = self._idle.pop() if self._idle else _Child(self._command, self._environment)
+            self._busy.add(child)
+        code, said = child.answer(order)
         with self._lock:
-            self._running.discard(process)
+            self._busy.discard(child)
             stopped_by_us = self.stopping
-        return *_outcome(process.returncode, said, stopped_by_us), said
+            goes_on = child.is_alive and not self.stopping
+            if goes_on:
+                self._idle.append(child)
+        if not goes_on:
+            child.dismiss()
+        return *_outcome(code, said, stopped_by_us), said
+
+    def dismiss(self) -> None:
+        """Nothing more is asked of those that wait."""
+        with self._lock:
+            while self._idle:
+                self._idle.pop().dismiss()
 
     def interrupt(self) -> None:
         with self._lock:
             self.stopping = True
-            for process in self._running:
-                process.send_signal(signal.SIGINT)
+            for child in self._busy:
+                child.process.send_signal(signal.SIGINT)
 
     def kill(self) -> None:
         with self._lock:
-            for process in self._running:
-                process.kill()
+            for child in self._busy:
+                child.process.kill()
+
+
+class _Child:
+    """One process, and what it writes where nobody answers: its last words."""
+
+    def __init__(self, command: Sequence[str], environment: dict[str, Any]):
+        self._words: IO[bytes] = tempfile.TemporaryFile()
+        # A session of its own: a Ctrl-C in the terminal reaches the children through us, and once only.
+        self.process = subprocess.Popen(
+            command,
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=self._words,
+            text=True,
+            start_new_session=True,
+            **environment,
+        )
+
+    @property
+    def is_alive(self) -> bool:
+        return self.process.poll() is None
+
+    def answer(self, order: dict[str, Any]) -> tuple[int, str]:
+        """Exit code of an order and what was said; those of the process where that ends instead."""
+        with suppress(OSError):  # it is gone: it says why
+            print(json.dumps(order), file=self.process.stdin, flush=True)
+        if line := self.process.stdout.readline():
+            answer = json.loads(line)
+            return answer["code"], answer["said"]
+        code = self.process.wait()
+        self._words.seek(0)
+        return code, self._words.read().decode(errors="replace")
+
+    def dismiss(self) -> None:
+        """Have it end, and wait for that."""
+        with suppress(OSError):
+            self.process.stdin.close()
+        self.process.wait()
+        self.process.stdout.close()
+        self._words.close()
 
 
 @contextmanager

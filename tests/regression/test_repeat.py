@@ -47,3 +47,13 @@ def test_overwriting_leaves_nothing_of_the_run_before(mixed, tmp_path):
     loop.run(load(CASES / "mixed.toml"), out, overwrite=True, quiet=True)
     assert_same_run(out, mixed)
     assert [path.name for path in (out / "figures").iterdir()] == ["my_own.png"]
+
+
+def test_a_case_that_a_process_runs_after_another_is_the_same_run(tmp_path):
+    settings = ["--set", "time.duration=0.8", "--vary", "contact.friction=0.1,0.2", "--vary", "contact.model=consistent,liu2015"]
+    done = dilatedem("sweep", CASES / "crowded.toml", *settings, "--jobs", 1, "--out", tmp_path / "sweep")
+    assert done.returncode == 0, done.stderr
+    last = tmp_path / "sweep" / "contact.friction=0.2__contact.model=liu2015"
+    loop.run(load(last / "case.toml"), tmp_path / "run", quiet=True)
+    assert_same_run(last, tmp_path / "run")
+    assert largest_load(last) > 1e3

@@ -1,6 +1,6 @@
-"""A sweep checks everything first, runs each case in its own process, and tells what became of each.
+"""A sweep checks everything first, has processes run its cases, and tells what became of each.
 
-The simulation is a stand-in that reads its case from standard input and writes a summary.
+The simulation is a stand-in that gets its case as a worker does and writes a summary.
 """
 
 import csv
@@ -14,6 +14,7 @@ from pathlib import Path
 import pytest
 
 from dilatedem import sweep as sweeps
+from dilatedem.case import write
 from dilatedem.case.load import load
 from dilatedem.errors import CaseError, SimulationStopped
 from dilatedem.files.lock import Lock
@@ -21,49 +22,54 @@ from dilatedem.sweep import sweep
 
 PILE = Path(__file__).parents[2] / "cases" / "pile.toml"
 
-# Stands for `dilatedem run - --out FOLDER`: its first argument. Friction tells it how to fare.
-RUN = """\
-import json, os, pathlib, signal, sys, time, tomllib
-folder, resume = pathlib.Path(sys.argv[1]), "--resume" in sys.argv
-text = sys.stdin.read()
-case = tomllib.loads(text)
-assert os.environ["NUMBA_NUM_THREADS"] == "1"
-folder.mkdir(parents=True, exist_ok=True)
-(folder / "case.toml").write_text(text)
-fate = case["contact"]["friction"]
-def summarise(status):
-    speed = case["water"]["velocity"][0]
-    loads = {"pile": {"fx_max_N": speed * 1e5, "fx_mean_N": 1e3, "fy_max_N": 2.0, "fy_min_N": -2.0,
-                      "fh_max_N": speed * 1e5}}
-    summary = {"status": status, "steps": 7, "wall_s": 0.5, "loads": loads, "resumed": resume,
-               "energy": {"residual_over_work": 1e-4}}
-    (folder / "summary.json").write_text(json.dumps(summary))
-def interrupted(*_):
-    (folder / "restart.h5").touch()
-    summarise("interrupted")
-    sys.exit(130)
-signal.signal(signal.SIGINT, interrupted)
-if fate == 0.3:
-    print("bodies 3 and 7 overlap", file=sys.stderr); summarise("stopped"); sys.exit(3)
-if fate == 0.4:
-    raise ZeroDivisionError("a bug")
-if fate == 0.5:
-    os.kill(os.getpid(), signal.SIGKILL)
-if fate == 0.6:
-    (folder / "started").touch(); time.sleep(60)
-summarise("completed")
+# Stands for `dilatedem.worker`. Friction tells it how to fare with a case.
+WORKER = """\
+import json, os, pathlib, signal, sys, time, tomllib, traceback
+def run(text, folder, resume):
+    case = tomllib.loads(text)
+    assert os.environ["NUMBA_NUM_THREADS"] == "1"
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "case.toml").write_text(text)
+    fate = case["contact"]["friction"]
+    def summarise(status):
+        speed = case["water"]["velocity"][0]
+        loads = {"pile": {"fx_max_N": speed * 1e5, "fx_mean_N": 1e3, "fy_max_N": 2.0, "fy_min_N": -2.0,
+                          "fh_max_N": speed * 1e5}}
+        summary = {"status": status, "steps": 7, "wall_s": 0.5, "loads": loads, "resumed": resume, "process": os.getpid(),
+                   "energy": {"residual_over_work": 1e-4}}
+        (folder / "summary.json").write_text(json.dumps(summary))
+    def interrupted(*_):
+        (folder / "restart.h5").touch()
+        summarise("interrupted")
+        sys.exit(130)
+    signal.signal(signal.SIGINT, interrupted)
+    if fate == 0.3:
+        summarise("stopped")
+        return 3, "bodies 3 and 7 overlap"
+    if fate == 0.4:
+        raise ZeroDivisionError("a bug")
+    if fate == 0.5:
+        os.kill(os.getpid(), signal.SIGKILL)
+    if fate == 0.6:
+        (folder / "started").touch(); time.sleep(60)
+    summarise("completed")
+    return 0, ""
+for line in sys.stdin:
+    order = json.loads(line)
+    try:
+        code, said = run(order["case"], pathlib.Path(order["out"]), order["resume"]) if "case" in order else (0, "")
+    except SystemExit as end:
+        code, said = end.code, ""
+    except Exception:
+        code, said = 1, traceback.format_exc()
+    print(json.dumps({"code": code, "said": said}), flush=True)
 """
-
-
-def stand_in(job):
-    resume = ["--resume"] if (job.folder / "restart.h5").exists() else []
-    return [sys.executable, "-S", "-c", RUN, str(job.folder), *resume]
+STAND_IN = [sys.executable, "-S", "-c", WORKER]
 
 
 @pytest.fixture
 def quick(monkeypatch):
-    monkeypatch.setattr(sweeps, "_command", stand_in)
-    monkeypatch.setattr(sweeps, "_compile_once", lambda models, line: None)
+    monkeypatch.setattr(sweeps, "WORKER", STAND_IN)
 
 
 def rows(out: Path) -> list[dict[str, str]]:
@@ -161,14 +167,20 @@ def test_resume_skips_the_finished_and_goes_on_with_the_others(quick, tmp_path):
         sweep(PILE, vary=["water.velocity.0=0.1"], overrides=["ice.density=900"], out=tmp_path, resume=True)
 
 
-def test_command_of_a_case(tmp_path):
+def test_order_of_a_case(tmp_path):
     [job] = sweeps.plan(PILE, vary=["ice.density=900"], out=tmp_path)
-    command = [sys.executable, "-m", "dilatedem.cli", "run", "-", "--out", str(job.folder), "--quiet"]
-    assert sweeps._command(job) == command
+    order = {"case": write.dump(job.case), "out": str(job.folder), "resume": False, "overwrite": False}
+    assert sweeps._order(job) == order
     job.folder.mkdir()
-    assert sweeps._command(job) == [*command, "--overwrite"]
+    assert sweeps._order(job) == order | {"overwrite": True}
     (job.folder / "restart.h5").touch()
-    assert sweeps._command(job) == [*command, "--resume"]
+    assert sweeps._order(job) == order | {"resume": True}
+
+
+def test_a_process_runs_one_case_after_another(quick, tmp_path):
+    out = tmp_path / "sweep"
+    sweep(PILE, seeds=6, jobs=2, out=out)
+    assert len({json.loads((out / row["run"] / "summary.json").read_text())["process"] for row in rows(out)}) <= 2
 
 
 @pytest.mark.parametrize("signal_number", [signal.SIGINT, signal.SIGTERM])
@@ -177,7 +189,7 @@ def test_an_interrupt_lets_the_running_cases_save_their_state(tmp_path, signal_n
     program = (
         "import sys\nsys.path.insert(0, sys.argv.pop(1))\n"
         "import test_sweep\nfrom dilatedem import cli, sweep\n"
-        "sweep._command, sweep._compile_once = test_sweep.stand_in, lambda models, line: None\ncli.main()"
+        "sweep.WORKER = test_sweep.STAND_IN\ncli.main()"
     )
     arguments = ["sweep", PILE, "--vary", "contact.friction=0.1,0.6", "--seeds", "2", "--jobs", "3"]
     arguments += ["--out", out]
