@@ -1,10 +1,10 @@
 """Two paces: floes that may touch take short steps, all others one long step beside them.
 
 Contacts last milliseconds, the water's loads change over a second, and at most times most floes touch nothing. So the
-steps of a run come in spans. At the start of a span all bodies stand at the same instant; each is given room for twice the way
-that its present loads let it go, and two bodies that could meet within their rooms are *busy*. Busy bodies take the short
-steps of the contacts, *idle* ones the whole span in one step of the same scheme, which the water allows a thousand of. Nothing can
-be missed: a busy body that is about to leave its room (something hit it) ends the span early.
+steps of a run come in spans. At the start of a span all bodies stand at the same instant; each is given room for the way that its
+present loads let it go and a quarter of that, and two bodies that could meet within their rooms are *busy*. Busy bodies take the
+short steps of the contacts, *idle* ones the whole span in one step of the same scheme, of which the water's loads change over
+hundreds. Nothing can be missed: a busy body that is about to leave its room (something hit it) ends the span early.
 """
 
 from math import sqrt
@@ -15,12 +15,13 @@ from dilatedem.state.response import is_free
 
 #: a body that moves farther than this share of the pair list's limit in one step has left the realm of the step size
 LONGEST_MOVE = 0.1
-#: the room of a body, in units of the way it will go if its loads stay as they are; effect: how many bodies are busy for nothing
-ROOM = 2.0
+#: the room of a body beyond the way that it will go if its loads stay as they are, as a share of that way, and in short steps of it:
+#: the larger of both; effect: how many bodies are busy for nothing
+SPARE_WAY, SPARE_STEPS = 0.25, 2.0
 #: what every room has besides, as a share of the pair list's limit: room to be hit from rest
-SPARE_ROOM = 0.005
-#: share of a body's room that it may use up before the span ends; the rest is for one more short step
-HORIZON = 0.75
+SPARE_ROOM = 0.001
+#: share of what a room has to spare that a body may use up before the span ends; the rest is for one more short step
+HORIZON = 0.25
 
 
 @item
@@ -31,7 +32,7 @@ def foresee(dt, span, model, bodies, pairs, workspace):
     bodies, and all others.
     """
     limit = LONGEST_MOVE * pairs.limit[0]
-    while not _give_room(span * dt, model, bodies, pairs, workspace) <= limit and span > 1:
+    while not _give_room(span, span * dt, model, bodies, pairs, workspace) <= limit and span > 1:
         span //= 2
     near = _near_pairs(bodies, pairs, workspace)
     busy, idle = _by_pace(bodies, workspace)
@@ -39,19 +40,20 @@ def foresee(dt, span, model, bodies, pairs, workspace):
 
 
 @item
-def _give_room(time, model, bodies, pairs, workspace):
-    """Room for all bodies over a time [s]; returns the longest way that one of them would go [m]."""
+def _give_room(span, time, model, bodies, pairs, workspace):
+    """Room for all bodies over a span that takes a time [s]; returns the longest way that one of them would go [m]."""
     solids, path, room, horizon = model.solids, bodies.path, workspace.room, workspace.horizon
     adrift = time * sqrt(pairs.frame[0] ** 2 + pairs.frame[1] ** 2)  # of what stands still, in the frame of the ice
-    spare = SPARE_ROOM * pairs.limit[0]
+    share, least = max(SPARE_WAY, SPARE_STEPS / span), SPARE_ROOM * pairs.limit[0]
     longest = 0.0
     for i in range(len(path)):
         way = adrift
         if is_free(i, solids):
             way = travel(i, time, solids, bodies, model.shapes.reach[i], pairs.frame)
             longest = way if not way <= longest else longest  # also where it is no number
-        room[i] = ROOM * way + spare
-        horizon[i] = path[i] + HORIZON * room[i]
+        spare = share * way + least
+        room[i] = way + spare
+        horizon[i] = path[i] + way + HORIZON * spare
     return longest
 
 

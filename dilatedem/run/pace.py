@@ -9,11 +9,14 @@ from dilatedem.run.observers import intervals
 from dilatedem.water.loads import shortest_time
 
 #: share of the time in which loads change that a step of a body which nothing can touch may last
-LONGEST_SPAN = 1e-3
+LONGEST_SPAN = 4e-3
 #: s that it may last at most, however slowly they change
-LONGEST_STEP = 1e-3
-#: most steps in such a step; more would save next to nothing
-MOST_SPAN = 16
+LONGEST_STEP = 4e-3
+#: most steps in such a step
+MOST_SPAN = 32
+#: what a step of all idle bodies costs, in units of a step of the busy ones and their contacts; effect: the span that the automatic
+#: step is made for
+IDLE_COST = 2.0
 #: steps that can be counted: up to here floating-point numbers are exact
 MOST_STEPS = 2.0**53
 #: steps in the time that all outputs have in common, at least, for the step to divide it; else it divides the force window alone
@@ -50,9 +53,16 @@ def _time_step(case: Case, critical: float) -> float:
     common = _common_part(intervals(case))
     if common >= SHORTEST_WINDOW * longest:
         window = common
-    steps, span = math.ceil(window / longest - 1e-9), longest_span(longest, shortest_time(case))
-    span = max(1, min(span, steps // 4))  # a short window is not worth a shorter step
-    return window / (-(-steps // span) * span)
+    steps = math.ceil(window / longest - 1e-9)
+
+    def cost(span: int) -> float:
+        return _rounded_up(steps, span) * (1.0 + IDLE_COST / span)
+
+    return window / _rounded_up(steps, min(range(1, longest_span(longest, shortest_time(case)) + 1), key=cost))
+
+
+def _rounded_up(steps: int, span: int) -> int:
+    return -(-steps // span) * span
 
 
 def _common_part(times: list[float]) -> float:

@@ -29,9 +29,9 @@ def test_the_automatic_step_divides_the_force_window():
     case = case_of(output={"force_interval": 0.01})
     dt = time_step(case, 3.3e-4)
     assert dt <= 3.3e-5 and 0.01 / dt == pytest.approx(round(0.01 / dt), abs=1e-9)
-    assert dt > 0.99 * 3.3e-5
+    assert dt > 0.98 * 3.3e-5
     half = time_step(case_of(time={"step_fraction": 0.5}), 3.3e-4)
-    assert half <= 1.65e-4 and round(0.01 / half) == 66  # 61, made a whole number of spans of idle bodies
+    assert half <= 1.65e-4 and round(0.01 / half) == 63  # 61, made a whole number of spans of idle bodies: three of 21
 
 
 def test_everything_is_written_on_time_where_one_step_divides_all_intervals():
@@ -42,13 +42,14 @@ def test_everything_is_written_on_time_where_one_step_divides_all_intervals():
 
 
 def test_idle_bodies_step_together_with_every_output():
-    assert free_span(case_of(), 0.01 / 992) == 16
-    assert free_span(case_of(), 1e-4) == 10  # 1 ms
-    assert free_span(case_of(), 0.01 / 99) == 9
+    assert free_span(case_of(), 0.01 / 992) == 32
+    assert free_span(case_of(), 0.01 / 990) == 30
+    assert free_span(case_of(), 1e-4) == 25  # 4 ms would be 40
+    assert free_span(case_of(), 0.01 / 33) == 11  # 4 ms would be 13
     assert free_span(case_of(), 0.01 / 97) == 1
-    assert free_span(case_of(output={"snapshot_interval": 0.0987}), 1e-4) == 10  # up to 0.5 ms late
+    assert free_span(case_of(output={"snapshot_interval": 0.0987}), 1e-4) == 25  # up to 2.5 ms late
     assert free_span(case_of(output={"snapshot_interval": 0.0123}), 1e-4) == 5  # of 123 steps less than a sixteenth
-    assert free_span(case_of(), 3e-3) == 1
+    assert free_span(case_of(), 5e-3) == 1
 
 
 def test_the_automatic_step_is_no_longer_than_a_window_or_the_run():
