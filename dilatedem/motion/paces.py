@@ -15,8 +15,8 @@ from dilatedem.state.response import is_free
 
 #: a body that moves farther than this share of the pair list's limit in one step has left the realm of the step size
 LONGEST_MOVE = 0.1
-#: the room of a body beyond the way that it will go if its loads stay as they are, as a share of that way, and in short steps of it:
-#: the larger of both; effect: how many bodies are busy for nothing
+#: the room of a body beyond the way that it will go if its loads stay as they are, as a share of that way and in short steps of
+#: it: the larger of both; effect: how many bodies are busy for nothing
 SPARE_WAY, SPARE_STEPS = 0.25, 2.0
 #: what every room has besides, as a share of the pair list's limit: room to be hit from rest
 SPARE_ROOM = 0.001

@@ -6,7 +6,6 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
-import meshio
 import numpy as np
 import shapely
 
@@ -29,14 +28,16 @@ class Snapshot:
 
 def read_snapshot(path: Path, time: float) -> Snapshot:
     """Read one VTU file of polyhedra. Raises OSError when the file is cut short or damaged."""
+    import meshio  # here: it loads much, and runs write snapshots without it
+
     try:
         return _read(meshio.read(path), time)
     except (SystemExit, Exception) as error:  # meshio raises what its parsers raise, and exits on some faults
         raise OSError(f"{path}: not a readable snapshot: {error}") from error
 
 
-def _read(mesh: meshio.Mesh, time: float) -> Snapshot:
-    """Raises whatever NumPy and meshio do where something is not what it should be."""
+def _read(mesh, time: float) -> Snapshot:
+    """mesh: as meshio reads it. Raises whatever NumPy and meshio do where something is not what it should be."""
     # Blocks and their data agree because a run writes its cells by their number of corners; see output.vtu.
     cells = [np.concatenate(faces) for block in mesh.cells for faces in block.data]
     count = len(cells)
@@ -71,8 +72,8 @@ def nearest_snapshot(listed: Iterable[tuple[float, Path]], time: float) -> Snaps
     raise OSError("no readable snapshot")
 
 
-def gather(mesh: meshio.Mesh, name: str, shape: tuple[int, ...]) -> np.ndarray:
-    """Cell data of all blocks, one after the other; zeros where the file lacks this array."""
+def gather(mesh, name: str, shape: tuple[int, ...]) -> np.ndarray:
+    """Cell data of all blocks of a mesh of meshio, one after the other; zeros where the file lacks this array."""
     if name not in mesh.cell_data:
         return np.zeros(shape)
     values = np.concatenate([np.asarray(block) for block in mesh.cell_data[name]]).reshape(shape)
