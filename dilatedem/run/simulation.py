@@ -3,6 +3,7 @@
 import math
 import time
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 
@@ -241,8 +242,16 @@ class Simulation:
         """Whether machine code of `advance` for this simulation lies on disk."""
         return is_cached(advance, *self._arguments(), self.span, 1)
 
-    def _arguments(self) -> tuple:
-        team = Alone() if self.threads == 1 else Team(self.crew.now)
+    @cached_property
+    def _runs_alone(self) -> bool:
+        """Whether one of several threads can use the machine code for one, which starts no parallel loops: not worth compiling."""
+        return is_cached(advance, *self._arguments(Alone()), self.span, 1)
+
+    def _arguments(self, team: Alone | Team | None = None) -> tuple:
+        """Of `advance`; team: that of the threads that work now, unless given."""
+        if team is None:
+            alone = self.crew.now == 1 and (self.threads == 1 or self._runs_alone)
+            team = Alone() if alone else Team(self.crew.now)
         state = self.state
         return (
             team, self.timer, self.model, state.bodies, state.pairs, self.spare, self.cells, self.workspace, self.tally,
