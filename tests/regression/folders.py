@@ -19,6 +19,10 @@ CASES = ROOT / "tests" / "cases"
 EXACT = ("case.toml", "forces.csv", "energy.csv", "bodies.csv", "ice.pvd", "structures.vtu")
 
 
+#: stands for the process that runs the cases of a sweep: does nothing, and says that all went well
+NO_WORK = [sys.executable, "-S", "-c", "for _ in open(0): print('{\"code\": 0, \"said\": \"\"}', flush=True)"]
+
+
 def command(*arguments) -> list[str]:
     return [sys.executable, "-m", "dilatedem.cli", *map(str, arguments)]
 

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 from disk_faults import CASE, DiskFault
-from folders import assert_same_run, in_process
+from folders import NO_WORK, assert_same_run, in_process
 from test_resume import interrupt_after
 
 from dilatedem import sweep as sweeps
@@ -115,8 +115,7 @@ def test_of_figures_and_report(case, whole, tmp_path):
 
 def test_of_a_sweep(case, tmp_path, monkeypatch):
     out = tmp_path / "out"
-    monkeypatch.setattr(sweeps, "_compile_once", lambda models, line: None)
-    monkeypatch.setattr(sweeps, "_command", lambda job: ["true"])
+    monkeypatch.setattr(sweeps, "WORKER", NO_WORK)
     shutil.rmtree(out, ignore_errors=True)
     command = ("sweep", case, "--vary", "contact.friction=0.1,0.2", "--out", out)
     with DiskFault(out) as disk:

@@ -16,7 +16,7 @@ from random import Random
 
 from dilatedem import sweep as sweeps
 from tests.regression.disk_faults import CASE, DiskFault
-from tests.regression.folders import assert_same_run, in_process
+from tests.regression.folders import NO_WORK, assert_same_run, in_process
 
 COMMANDS = ("run", "resume", "overwrite", "generate", "post", "sweep")
 #: ways to damage a file
@@ -79,7 +79,7 @@ def refuse_all(places: Places, command: str, number: int, every: int) -> dict:
 
     Returns counts of calls and exit codes, and what was wrong: another end than one sentence, or files that cannot be gone on with.
     """
-    sweeps._command, sweeps._compile_once = lambda job: ["true"], lambda models, line: None  # its own files, not those of its cases
+    sweeps.WORKER = NO_WORK  # its own files, not those of its cases
     line = places.prepare(command)
     with DiskFault(places.out) as disk:
         in_process(*line)
