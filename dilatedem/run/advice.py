@@ -11,6 +11,8 @@ from dilatedem.state.model import Model
 
 #: share of the critical step above which loads are too far off: at 0.6 peaks overshoot by 5 to 23 % (docs/theory.md, time step)
 LARGEST_FRACTION = 0.5
+#: share of the time step that contacts would allow below which a short force window is hardly meant
+SHORT_WINDOW = 0.5
 #: widths of the largest floe beside the ice, across its drift, that it may spread to by collisions
 SPREAD = 1.0
 #: m/s below which nothing drifts
@@ -19,7 +21,8 @@ STILL = 1e-9
 
 def advice(case: Case, scene: Scene, model: Model, bodies: Bodies, *, share: float) -> list[str]:
     """Sentences about a simulation at t = 0; share: time step over the critical one."""
-    found = [_about_step(share), _about_thickness(case, scene), *_about_reach(case, scene, model, bodies)]
+    found = [_about_step(share), _about_window(case, share), _about_thickness(case, scene)]
+    found += _about_reach(case, scene, model, bodies)
     return [sentence for sentence in found if sentence]
 
 
@@ -29,6 +32,17 @@ def _about_step(share: float) -> str:
     return (
         f"the time step is {share:.2g} of the critical one: above {LARGEST_FRACTION:g} the peaks of loads overshoot, "
         "at 0.6 by 5 to 23 %; take a smaller time.step_fraction or time.step"
+    )
+
+
+def _about_window(case: Case, share: float) -> str:
+    """The automatic step is never longer than a window of forces.csv."""
+    window, shorter = case.output.force_interval, case.time.step_fraction / share
+    if case.time.step != "auto" or shorter * SHORT_WINDOW <= 1.0 or case.time.duration <= window:
+        return ""
+    return (
+        f"output.force_interval = {window:g} s makes the time step {shorter:.2g} times shorter than contacts need, and the run as "
+        "many times longer; take a longer one"
     )
 
 

@@ -39,6 +39,8 @@ LIMIT = {"check": 10.0, "run": 60.0, "info": 10.0, "post": 60.0, "load": 60.0}
 ALLOWED = {"check": {0, 2, 3}, "run": {0, 2, 3}, "info": {0, 2}, "post": {0, 2}, "load": {0, 2}}
 #: simulated time of a run
 DURATION = 2e-3
+#: steps of one, at most, where the case makes them short
+MOST_STEPS = 1e5
 
 
 @dataclass
@@ -138,13 +140,15 @@ def fuzz_cases(rng: random.Random, folder: Path, count: int, name: str, until: f
 
 
 def _short(path: Path) -> list[str]:
-    """Overrides that make a run short, where the case leaves a duration to be set."""
+    """Overrides that make a run short, where the case leaves a duration to be set: a step is never longer than the force window."""
     try:
         data = tomllib.loads(path.read_text(encoding="utf-8"))
-        own = isinstance(data.get("time", {}), dict) and float(data.get("time", {}).get("duration", 1.0)) < DURATION
+        tables = [data.get(name, {}) if isinstance(data.get(name, {}), dict) else {} for name in ("time", "output")]
+        duration, window = float(tables[0].get("duration", 1.0)), float(tables[1].get("force_interval", 1.0))
     except (ValueError, TypeError):
-        own = True
-    return [] if own else ["--set", f"time.duration={DURATION}"]
+        return []
+    longest = min(DURATION, MOST_STEPS * window) if window > 0.0 else DURATION
+    return [] if duration < longest else ["--set", f"time.duration={longest}"]
 
 
 def fuzz_folders(folder: Path, count: int, seed: int, until: float, doors: list[str]) -> dict[str, Tally]:

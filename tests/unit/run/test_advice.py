@@ -89,6 +89,15 @@ def test_a_long_step_of_ones_own():
     assert advice(time={"step": 0.3 * critical}) == []
 
 
+def test_a_force_window_that_makes_the_step_short():
+    [sentence] = advice(output={"force_interval": 1e-9})
+    assert sentence.startswith("output.force_interval = 1e-09 s makes the time step ")
+    assert " times shorter than contacts need" in sentence
+    assert advice(output={"force_interval": 1e-4}) == []
+    assert advice(output={"force_interval": 1e-9}, time={"step": 1e-9}) == []
+    assert advice(time={"duration": 1e-9}) == []
+
+
 def test_floes_thicker_than_wide():
     assert advice(ice={"thickness": 8.0})[0].startswith("the floes: 8 m thick, 4.54 m wide: ice thicker than wide tips over")
     pillar = {"outline": [[30.0, -1.0], [32.0, -1.0], [32.0, 1.0], [30.0, 1.0]], "thickness": 2.5}
