@@ -7,6 +7,8 @@ import numpy as np
 #: an amount of energy below this share of all stored energy is round-off: the terms of a ledger are known to some 1e-15 of their
 #: sizes together, so that of a larger amount round-off makes less than a ten-thousandth
 RESOLVED = 1e-10
+#: share of the kinetic energy that the error of free motion may reach: in free flight nothing else is turned over
+FREE_FLIGHT = 1e-6
 #: terms that trade with each other as a floe bobs and count as one: energies of its place
 PLACE = ("gravity", "buoyancy")
 

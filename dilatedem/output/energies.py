@@ -19,6 +19,7 @@ class Totals:
     largest_work: float = 0.0  # J, of all loads together, each by its size
     largest_stored: float = 0.0  # J, all that is stored, each by its size
     largest_turned_over: float = 0.0  # J
+    largest_kinetic: float = 0.0  # J
     initial: dict[str, float] = field(default_factory=dict)  # J, every term of the first row
     largest_step_ratio: float = 0.0  # dt over the critical step of the open contacts
 
@@ -47,6 +48,7 @@ def work_up(noted: list[list[float]], names: list[str], totals: Totals) -> np.nd
     totals.largest_stored = max(totals.largest_stored, float(np.max(stored)))
     turned_over = balance.turned_over({name: values[name] - initial for name, initial in totals.initial.items()})
     totals.largest_turned_over = max(totals.largest_turned_over, float(np.max(turned_over)))
+    totals.largest_kinetic = max(totals.largest_kinetic, float(np.max(values["kinetic"])))
     totals.largest_step_ratio = max(totals.largest_step_ratio, float(values["step_ratio"].max()))
     return np.column_stack([values[name] for name in ("time_s", *names, "residual")])
 
@@ -83,13 +85,15 @@ class Energies(TableObserver):
     def summary(self) -> dict:
         terms = self.simulation.energies() if self.simulation.state.clock.step[0] else {}
         totals, residual = self.totals, self.totals.largest_residual
+        turned_over = totals.largest_turned_over
+        in_flight = turned_over <= balance.FREE_FLIGHT * totals.largest_kinetic
         return {
             "dt_over_critical_of_open_contacts": totals.largest_step_ratio,
             "energy": {f"{name}_J": value for name, value in terms.items()}
             | {
                 "residual_J": residual,
                 "residual_over_work": balance.share(residual, totals.largest_work, totals.largest_stored),
-                "turned_over_J": totals.largest_turned_over,
-                "residual_over_turned_over": balance.share(residual, totals.largest_turned_over, totals.largest_stored),
+                "turned_over_J": turned_over,
+                "residual_over_turned_over": None if in_flight else balance.share(residual, turned_over, totals.largest_stored),
             },
         }

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import Any
 
+from dilatedem.numerics.balance import FREE_FLIGHT
+
 #: share of what contacts lost that their laws may make, or take, besides
 LARGEST_GAIN = 0.1
 #: share of the energy turned over that the ledger may leave unexplained; of it, too, what laws make is too little to matter
 LARGEST_RESIDUAL = 0.001
-#: share of the kinetic energy below which a residual is no doubt: in free flight nothing is turned over, and steps have an error
-FREE_FLIGHT = 1e-6
 
 
 def doubts(summary: dict[str, Any]) -> list[str]:

@@ -46,3 +46,15 @@ def test_what_turns_over_is_half_of_all_changes_whatever_the_batches():
 
 def test_weight_alone_turns_over():
     assert turned_over({"gravity": np.array([-3.0]), "kinetic": np.array([3.0])}).tolist() == [3.0]
+
+
+def test_a_body_that_flies_and_spins_freely_turns_nothing_over(tmp_path):
+    """The error of its steps is all that changes: no share of it says anything."""
+    corners = [[x, y, z] for x in (-1.4, 1.4) for y in (-0.7, 0.7) for z in (-0.2, 0.2)]
+    run = dilatedem.run(
+        {"field": {"source": "bodies"}, "body": [{"vertices": corners, "angular_velocity": [0.3, 5.0, 0.0]}]}, tmp_path / "run",
+        water={"enabled": False}, gravity={"acceleration": 0.0}, time={"duration": 0.5},
+    )  # fmt: skip
+    energy = run.summary["energy"]
+    assert 0.0 < energy["residual_J"] < 1e-6 * energy["kinetic_J"]
+    assert energy["residual_over_turned_over"] is None
