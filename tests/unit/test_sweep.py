@@ -200,7 +200,8 @@ def test_an_interrupt_lets_the_running_cases_save_their_state(tmp_path, signal_n
     )
     sleeping = [out / f"contact.friction=0.6__seed={seed}" for seed in (1, 2)]
     for _ in range(1200):
-        if all((folder / "started").exists() for folder in sleeping):
+        asleep = all((folder / "started").exists() for folder in sleeping)
+        if asleep and [row["status"] for row in rows(out)].count("completed") == 2:
             break
         time.sleep(0.05)
     process.send_signal(signal_number)
