@@ -1,5 +1,6 @@
 """The command `dilatedem`, and `python -m dilatedem`."""
 
+from dilatedem.errors import INTERRUPTED
 from dilatedem.processes import interrupts
 
 
@@ -11,7 +12,7 @@ def main() -> None:
 
             cli.main()
     except KeyboardInterrupt:
-        raise SystemExit(interrupts.INTERRUPTED) from None
+        raise SystemExit(INTERRUPTED) from None
 
 
 if __name__ == "__main__":

@@ -13,8 +13,8 @@ from typing import Annotated, Any
 import typer
 
 from dilatedem import __version__
-from dilatedem.endings import WRONG, ending
-from dilatedem.errors import CaseError, printable
+from dilatedem.endings import ending
+from dilatedem.errors import WRONG, CaseError, printable
 from dilatedem.garbage import seldom_collected
 from dilatedem.processes import interrupts, lifeline
 

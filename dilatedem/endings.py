@@ -1,11 +1,7 @@
 """How a command ends on a known fault: the one sentence that the user reads, and an exit code."""
 
-from dilatedem.errors import CaseError, Interrupted, SimulationStopped
+from dilatedem.errors import INTERRUPTED, STOPPED, WRONG, CaseError, Interrupted, SimulationStopped
 from dilatedem.files.faults import FULL, sentence
-
-WRONG = 2
-STOPPED = 3
-INTERRUPTED = 130
 
 
 def ending(error: BaseException, *, can_resume: bool = False) -> tuple[str, int] | None:

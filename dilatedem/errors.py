@@ -1,6 +1,10 @@
 """The three ways a command ends other than well; each carries the one sentence the user reads, and how any text is shown."""
 
+import signal
 import unicodedata
+
+#: exit codes of these ends; a shell gives the last one to what Ctrl-C ended
+WRONG, STOPPED, INTERRUPTED = 2, 3, 128 + signal.SIGINT
 
 #: categories of Unicode that a terminal would obey, or could not show: control and format characters, halves of surrogate pairs,
 #: separators of lines and paragraphs

@@ -15,7 +15,8 @@ from pathlib import Path
 from typing import Any
 
 from dilatedem.case.load import Source, build
-from dilatedem.endings import INTERRUPTED, ending
+from dilatedem.endings import ending
+from dilatedem.errors import INTERRUPTED
 from dilatedem.garbage import seldom_collected
 from dilatedem.processes import lifeline
 from dilatedem.run.loop import compile_kernels, run

@@ -149,8 +149,7 @@ def scene_words(run: RunFolder) -> str:
         words.append("unbounded ones hatched on their solid side")
     sides = dict.fromkeys(SIDES.get(kind, kind) for kind in run.boundaries)
     words.append(f"the domain's sides {' and '.join(sides)}")
-    flows = [what for what, velocity in (("current", run.current), ("wind", run.wind)) if any(velocity)]
-    if flows:
+    if flows := run.flows:
         words.append(f"the arrow{'s give' if len(flows) > 1 else ' gives'} the {' and the '.join(flows)}")
     return "; ".join(words)
 

@@ -139,14 +139,11 @@ def draw_structures(axes: Axes, run: RunFolder) -> None:
 def draw_flows(axes: Axes, run: RunFolder) -> None:
     """Speed and direction of the current and of the wind, above the upper right corner of the axes."""
     height = 12.0
-    for what, (u, v) in (("current", run.current), ("wind", run.wind)):
-        speed = math.hypot(u, v)
-        if speed == 0.0:
-            continue
+    for what, (u, v) in run.flows.items():
         corner = {"xy": (1.0, 1.0), "xycoords": "axes fraction", "textcoords": "offset points", "va": "center"}
         arrow = {"fontsize": 17.0, "ha": "center", "rotation": math.degrees(math.atan2(v, u))}
         axes.annotate("\N{LONG RIGHTWARDS ARROW}", xytext=(-13.0, height), **arrow, **corner)
-        axes.annotate(f"{what} {speed:.3g} m/s", xytext=(-30.0, height - 1.0), ha="right", **corner)
+        axes.annotate(f"{what} {math.hypot(u, v):.3g} m/s", xytext=(-30.0, height - 1.0), ha="right", **corner)
         height += 19.0
 
 

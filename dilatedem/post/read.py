@@ -59,6 +59,11 @@ class RunFolder:
         """Velocity of the wind [m/s]; zero where the water is switched off, out of which floes would stand."""
         return self._velocity_of("wind")
 
+    @property
+    def flows(self) -> dict[str, tuple[float, float]]:
+        """What moves the ice, by name, and its velocity [m/s]; without what stands still."""
+        return {what: flow for what, flow in (("current", self.current), ("wind", self.wind)) if any(flow)}
+
     def _velocity_of(self, what: str) -> tuple[float, float]:
         if not self.case.get("water", {}).get("enabled", True):
             return 0.0, 0.0

@@ -11,7 +11,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from typing import IO, Any
 
-from dilatedem.errors import printable
+from dilatedem.errors import INTERRUPTED, STOPPED, WRONG, printable
 from dilatedem.processes import lifeline
 from dilatedem.processes.interruption import Interruption
 
@@ -140,11 +140,11 @@ def _outcome(code: int, said: str, stopped_by_us: bool) -> tuple[str, str]:
     lines = [line.strip() for line in said.splitlines() if line.strip()]
     if code == 0:
         return "completed", ""
-    if code == 130 or stopped_by_us:
+    if code == INTERRUPTED or stopped_by_us:
         return "interrupted", "--resume goes on"
-    if code == 3:
+    if code == STOPPED:
         return "stopped", "; ".join(lines)
-    if code == 2:
+    if code == WRONG:
         return "failed", "; ".join(lines)
     if code < 0:
         return "failed", f"killed by signal {-code}"

@@ -6,8 +6,8 @@ import sys
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 
-#: exit code of a program that was interrupted
-INTERRUPTED = 128 + signal.SIGINT
+from dilatedem.errors import INTERRUPTED
+
 #: brings back the cursor that a progress bar hides
 SHOW_CURSOR = b"\x1b[?25h"
 

@@ -38,7 +38,7 @@ def complete_spins(model, bodies):
 
 
 @shared_loop
-def _drift_shared(team, chosen, count, dt, reach, solids, bodies, pairs, workspace, block=0, blocks=1):
+def _drift_shared(team, chosen, count, dt, reach, solids, bodies, pairs, workspace):
     parts = team.threads
     for each in prange(parts):
         drift_block(team, chosen, count, dt, reach, solids, bodies, pairs, workspace, each, parts)
@@ -71,7 +71,7 @@ def surprised(team, workspace):
 
 @shared_loop
 def _collide_shared(
-    team, count, dt, structure_of, shapes, solids, contact, surroundings, bodies, pairs, workspace, tally, block=0, blocks=1
+    team, count, dt, structure_of, shapes, solids, contact, surroundings, bodies, pairs, workspace, tally
 ):
     parts = team.threads
     for each in prange(parts):
@@ -86,7 +86,7 @@ collide_pairs = by_type(collide_block, {Team: _collide_shared})
 
 @shared_loop
 def _float_shared(
-    team, chosen, count, awake, dt, time, floating, hulls, solids, setting, bodies, pairs, workspace, block=0, blocks=1
+    team, chosen, count, awake, dt, time, floating, hulls, solids, setting, bodies, pairs, workspace
 ):
     parts = team.threads
     for each in prange(parts):
