@@ -85,7 +85,15 @@ def _is_beyond_others(parent: Path) -> bool:
     return not (_HAS_OWNERS and mode & 0o002) or bool(mode & stat.S_ISVTX)
 
 
-if "NUMBA_CACHE_DIR" not in os.environ:
+def _chosen_folder(place: str) -> Path:
+    """The folder for compiled code in a place that the user chose; a parent process may have named the folder itself."""
+    digest = source_digest()
+    return Path(place) if Path(place).name == digest else Path(place, digest)
+
+
+if "NUMBA_CACHE_DIR" in os.environ:
+    os.environ["NUMBA_CACHE_DIR"] = str(_chosen_folder(os.environ["NUMBA_CACHE_DIR"]))
+else:
     os.environ["NUMBA_CACHE_DIR"] = str(_cache_folder())
 
 import numba  # noqa: E402  (the cache folder must be known first)

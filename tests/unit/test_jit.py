@@ -204,6 +204,16 @@ def test_the_digest_is_of_the_whole_program():
     assert cache._PACKAGE == Path(dilatedem.__file__).parent
 
 
+def test_a_place_that_the_user_chose_has_a_folder_per_state_of_the_sources_too(tmp_path):
+    """Code of other sources once was taken from there: numba looks at the file of the outermost function alone."""
+    program = "from dilatedem.jit import cache; import numba, os; print(numba.config.CACHE_DIR, os.environ['NUMBA_CACHE_DIR'])"
+    folder = tmp_path / cache.source_digest()
+    for given in (tmp_path, folder):  # the second: by a parent process, which had chosen already
+        environment = os.environ | {"NUMBA_CACHE_DIR": str(given)}
+        told = subprocess.run([sys.executable, "-c", program], env=environment, capture_output=True, text=True, check=True)
+        assert told.stdout.split() == [str(folder)] * 2
+
+
 SHOW = (
     "import os, sys, tempfile\ntempfile.tempdir = sys.argv[1]\n"
     "from dilatedem.jit import cache\nprint(os.environ['NUMBA_CACHE_DIR'])"
