@@ -1,8 +1,8 @@
 """A process that runs one case of a sweep after another: the program and its machine code are loaded once.
 
 Each line of its standard input is an order in JSON, {"case": text of a case file, "out": run folder, "resume": false,
-"overwrite": false} or {"compile": contact model}. A line of its standard output answers each, {"code": exit code, "said": all that
-the command would have written to standard error}.
+"overwrite": false} or {"compile": {"model": of contact, "damping_law": its dashpot}}. A line of its standard output answers each,
+{"code": exit code, "said": all that the command would have written to standard error}.
 """
 
 import gc
@@ -38,7 +38,7 @@ def _carry_out(order: dict[str, Any]) -> int:
     """Exit code of the command that an order stands for."""
     try:
         if "compile" in order:
-            compile_kernels(model=order["compile"])
+            compile_kernels(**order["compile"])
         else:
             case = build(Source("<stdin>", order["case"]), [])
             run(case, Path(order["out"]), resume=order["resume"], overwrite=order["overwrite"], quiet=True)

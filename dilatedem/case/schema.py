@@ -137,8 +137,19 @@ class Contact(Table):
         "`liu2015`: the paper's laws, mode by mode; `consistent`: laws that agree with elasticity and with each other.",
     )
     damping: Annotated[float, Field(ge=0, le=100)] = key(0.36, "", "Damping coefficient of the normal force; 0 is elastic.")
+    damping_law: Literal["viscous", "touch"] = key(
+        "viscous",
+        "",
+        "Of `consistent`: a dashpot that acts from the first touch on, or one that vanishes there, so that loads rise from nothing "
+        "as elastic ones do. `damping` gives both the same restitution. `liu2015` has the `viscous` one of the paper.",
+    )
     friction: Annotated[float, Field(ge=0, le=1000)] = key(0.1, "", "Coefficient of friction.")
     stiffness_ratio: Annotated[float, Field(ge=0, le=1000)] = key(0.7, "", "Tangential over normal stiffness.")
+
+    def faults(self) -> list[Fault]:
+        if self.damping_law == "touch" and self.model != "consistent":
+            return [(("damping_law",), f'must be "viscous" with contact.model = "{self.model}"; "touch" is for "consistent"')]
+        return []
 
 
 class Time(Table):

@@ -17,14 +17,14 @@ and with that of both, and rows of one layout need one kind of list, of copy and
 from dilatedem.contact.consistent import law as consistent
 from dilatedem.contact.liu2015 import law as liu2015
 from dilatedem.jit import by_type
-from dilatedem.state.setting import ConsistentSetting, Liu2015Setting
+from dilatedem.state.setting import ConsistentSetting, ConsistentTouchSetting, Liu2015Setting
 
-LAWS = {Liu2015Setting: liu2015, ConsistentSetting: consistent}
+LAWS = {Liu2015Setting: liu2015, ConsistentSetting: consistent, ConsistentTouchSetting: consistent}
 
-press = by_type(liu2015.press, {ConsistentSetting: consistent.press})
-carry = by_type(liu2015.carry, {ConsistentSetting: consistent.carry})
-rubbed = by_type(liu2015.rubbed, {ConsistentSetting: consistent.rubbed})
-deepest = by_type(liu2015.deepest, {ConsistentSetting: consistent.deepest})
+press = by_type(liu2015.press, {setting: law.press for setting, law in LAWS.items()})
+carry = by_type(liu2015.carry, {setting: law.carry for setting, law in LAWS.items()})
+rubbed = by_type(liu2015.rubbed, {setting: law.rubbed for setting, law in LAWS.items()})
+deepest = by_type(liu2015.deepest, {setting: law.deepest for setting, law in LAWS.items()})
 
 
 def law_of(contact):

@@ -87,6 +87,6 @@ def by_type(usual, others):
             chosen = others.get(getattr(arguments[0], "instance_class", None), usual)
             return chosen.py_func if chosen is function else None
 
-    for function in (usual, *others.values()):
+    for function in dict.fromkeys((usual, *others.values())):
         offer(function)
     return stage

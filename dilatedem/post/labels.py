@@ -41,6 +41,7 @@ KEYS: dict[str, tuple[str, str]] = {
     "structure.poisson_ratio": ("Poisson ratio of the structure", ""),
     "contact.model": ("contact model", ""),
     "contact.damping": ("damping coefficient", ""),
+    "contact.damping_law": ("damping law", ""),
     "contact.friction": ("friction coefficient", ""),
     "contact.stiffness_ratio": ("stiffness ratio", ""),
     "time.duration": ("duration", "s"),

@@ -3,6 +3,7 @@
 import numpy as np
 
 from dilatedem.case.schema import Case
+from dilatedem.contact.consistent.dashpot import own_damping
 from dilatedem.errors import CaseError
 from dilatedem.geometry.outline import perimeter
 from dilatedem.geometry.shapes import pack_hulls, pack_shapes
@@ -65,7 +66,8 @@ def _held(scene: Scene) -> np.ndarray:
 
 def _contact_setting(case: Case) -> ContactSetting:
     contact = case.contact
-    return CONTACT_SETTINGS[contact.model](contact.damping, contact.friction, contact.stiffness_ratio)
+    setting = CONTACT_SETTINGS[contact.model, contact.damping_law]
+    return setting(own_damping(setting, contact.damping), contact.friction, contact.stiffness_ratio)
 
 
 def _require_one_image(case: Case, reach: np.ndarray, cores: list[Part], periodic: tuple[bool, bool]) -> None:

@@ -4,9 +4,10 @@ from typing import NamedTuple
 
 
 class ContactSetting(NamedTuple):
-    """Parameters of contact. Each model has a class of its own, by which `contact.laws` chooses: only one model is compiled."""
+    """Parameters of contact. Each model, with each dashpot, has a class of its own, by which `contact.laws` chooses: only what a
+    case uses is compiled."""
 
-    damping: float  # zeta_n of Liu 2015, Eq. (4)
+    damping: float  # zeta_n of Liu 2015, Eq. (4): the dashpot over the critical one, where an approach ends
     friction: float  # mu of Eq. (6)
     stiffness_ratio: float  # r_ns: tangential over normal stiffness
 
@@ -19,8 +20,18 @@ class ConsistentSetting(ContactSetting):
     __slots__ = ()
 
 
-#: by the name of the model in a case
-CONTACT_SETTINGS = {"liu2015": Liu2015Setting, "consistent": ConsistentSetting}
+class ConsistentTouchSetting(ContactSetting):
+    """`consistent` with a dashpot that vanishes at touch."""
+
+    __slots__ = ()
+
+
+#: by the names of the model and of its damping law in a case
+CONTACT_SETTINGS = {
+    ("liu2015", "viscous"): Liu2015Setting,
+    ("consistent", "viscous"): ConsistentSetting,
+    ("consistent", "touch"): ConsistentTouchSetting,
+}
 
 
 class Surroundings(NamedTuple):

@@ -10,7 +10,7 @@ face contacts rebound alike at all speeds too.
 """
 
 from collections.abc import Callable
-from math import atan2, exp, log, pi, sqrt
+from math import acosh, atan2, exp, log, pi, sqrt
 
 from scipy.integrate import solve_ivp
 
@@ -21,7 +21,10 @@ ICE_STEEL = 1 / (0.91 / 1e9 + 0.91 / 210e9)
 
 
 def restitution_of_oscillator(xi: float) -> float:
-    """Speed after over speed before of a damped oscillator that is left where its force would pull, xi <= 1."""
+    """Speed after over speed before of a damped oscillator that is left where its force would pull."""
+    if xi > 1.0:
+        root = sqrt(xi**2 - 1.0)
+        return exp(-2.0 * xi * acosh(xi) / root)
     if xi == 1.0:
         return exp(-2.0)
     if xi == 0.0:

@@ -2,7 +2,7 @@
 
     python -m validation.contact_lab.run [--out DIR] [PART ...]
 
-from the root of the repository. PART: overlaps, tilts, restitution, loops, collisions, random; all of them unless given.
+from the root of the repository. PART: overlaps, tilts, restitution, rises, loops, collisions, random; all of them unless given.
 """
 
 import argparse
@@ -11,7 +11,7 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
-from validation.contact_lab import collisions, loops, overlaps, random_collisions, restitution, tilt_figures
+from validation.contact_lab import collisions, loops, overlaps, random_collisions, restitution, rises, tilt_figures
 from validation.contact_lab.drawing import save_png
 from validation.contact_lab.tilts import ROLLS
 
@@ -37,6 +37,12 @@ def draw_restitution(out: Path) -> Table:
     return restitution.table(found)
 
 
+def draw_rises(out: Path) -> Table:
+    found = rises.survey()
+    save_png(rises.figure(found), out, "rises")
+    return rises.table(found)
+
+
 def draw_loops(out: Path) -> Table:
     found = loops.survey()
     save_png(loops.figure(found), out, "loops")
@@ -59,6 +65,7 @@ PARTS: dict[str, Callable[[Path], Table]] = {
     "overlaps": draw_overlaps,
     "tilts": draw_tilts,
     "restitution": draw_restitution,
+    "rises": draw_rises,
     "loops": draw_loops,
     "collisions": draw_collisions,
     "random": draw_random,

@@ -27,7 +27,7 @@ SIDE = 16.0
 APART = ((-1.5, 0.0, 0.0), (1.5, 0.0, 0.0))
 
 
-def scene(model: str, *solids: dict, damping: float = 0.0, speeds=(0.0, 0.0)) -> Case:
+def scene(model: str, *solids: dict, damping: float = 0.0, damping_law: str = "viscous", speeds=(0.0, 0.0)) -> Case:
     """A case of two bodies, or of a body and a structure; speeds: of the bodies along x at the start [m/s]."""
     bodies = [solid for solid in solids if "kind" not in solid]
     placed = [
@@ -40,7 +40,7 @@ def scene(model: str, *solids: dict, damping: float = 0.0, speeds=(0.0, 0.0)) ->
             "field": {"source": "bodies"},
             "water": {"enabled": False},
             "gravity": {"acceleration": 0.0},
-            "contact": {"model": model, "damping": damping, "friction": 0.0},
+            "contact": {"model": model, "damping": damping, "damping_law": damping_law, "friction": 0.0},
             "structure": [solid for solid in solids if "kind" in solid],
             "body": placed,
         }

@@ -2,6 +2,7 @@
 
 from math import sqrt
 
+from dilatedem.contact.consistent.dashpot import dashpot
 from dilatedem.contact.consistent.join import pose_energy
 from dilatedem.contact.pressed import Pressed
 from dilatedem.jit import device, item
@@ -39,9 +40,8 @@ def press_consistent(contact, k, dt, shapes, vertex, face_normal, solids, bodies
     """The normal part of contact k, as `Pressed`; arguments as of `liu2015.press_liu2015`. Writes the pair's couple, its grip and
     its tangent.
 
-    Damping multiplies the elastic wrench by 1 + c (dW/dt)/F^2, never below 0, with c = xi sqrt(2 m*/W) F [N s/m]. For any law
-    F = K overlap^p that is c sqrt(m* K) overlap^((p-1)/2) times the approach speed with the constant sqrt(2 (p+1)) xi:
-    restitution depends on xi alone. m*: what the bodies oppose at the centre of pressure, `response.mobility`. Rocking, which
+    Damping multiplies the elastic wrench by 1 + c (dW/dt)/F^2, never below 0, with the c [N s/m] of `dashpot.dashpot`: restitution
+    depends on the damping alone. m*: what the bodies oppose at the centre of pressure, `response.mobility`. Rocking, which
     changes W only to second order, meets the same dashpot spread over the patch: a couple -c J omega, J the second moments of the
     overlap. It cannot lift the patch: its arm stays within their root.
     """
@@ -69,13 +69,13 @@ def press_consistent(contact, k, dt, shapes, vertex, face_normal, solids, bodies
     velocity = relative_velocity(bodies.velocity, bodies.angular_velocity, a, b, point, arm)
     turning = relative_spin(bodies.angular_velocity, a, b)
     elastic_power = -dot(force, velocity) - dot(couple, turning)
-    share, rocking, rocking_power, dashpot = 1.0, none, 0.0, 0.0
+    share, rocking, rocking_power, strength = 1.0, none, 0.0, 0.0
     if contact.damping > 0.0:
         give = mobility(a, solids, bodies.orientation, point, direction) + mobility(b, solids, bodies.orientation, arm, direction)
         give *= energy
-        dashpot = contact.damping * sqrt(2.0 * give) * (1.0 / give) * elastic  # root and division beside each other
-        share = max(1.0 + dashpot * elastic_power * unit, 0.0)
-        rocking = _rocking_couple(dashpot, share * elastic, spread, direction, turning)
+        strength = dashpot(contact, elastic, give, elastic_power * (unit * elastic))
+        share = max(1.0 + strength * elastic_power * unit, 0.0)
+        rocking = _rocking_couple(strength, share * elastic, spread, direction, turning)
         rocking_power = -dot(rocking, turning)
     damping_power = (share - 1.0) * elastic_power + rocking_power
     store(pairs.couple, k, along(rocking, share, couple))
@@ -85,6 +85,6 @@ def press_consistent(contact, k, dt, shapes, vertex, face_normal, solids, bodies
     shear_stiffness = 0.5 * contact.stiffness_ratio * stiffness
     return Pressed(
         mode=mode, size=size, overlap=-gap, point=point, direction=direction, normal_force=share * elastic,
-        elastic_power=elastic_power, damping_power=damping_power, shear_stiffness=shear_stiffness, dashpot=dashpot,
+        elastic_power=elastic_power, damping_power=damping_power, shear_stiffness=shear_stiffness, dashpot=strength,
         stored=energy, gain=0.0, velocity=velocity, turning=turning,
     )  # fmt: skip

@@ -33,6 +33,13 @@ def test_empty_case_has_every_default():
     assert (output.track, output.track_interval, output.checkpoint_interval) == ([], 0.01, 10.0)
 
 
+def test_the_papers_laws_have_the_papers_dashpot():
+    assert Case().contact.damping_law == "viscous"
+    assert Case.model_validate({"contact": {"model": "consistent", "damping_law": "touch"}}).contact.damping_law == "touch"
+    with pytest.raises(ValidationError, match='damping_law: must be "viscous" with contact.model = "liu2015"'):
+        Case.model_validate({"contact": {"damping_law": "touch"}})
+
+
 def test_structures_have_the_elasticity_of_steel():
     plane = {"kind": "plane", "point": [1, 2, 3], "normal": [0, 0, 1]}
     pile, plane = Case.model_validate({"structure": [{"kind": "pile"}, plane]}).structure

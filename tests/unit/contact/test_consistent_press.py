@@ -16,12 +16,14 @@ CUBE = [[x, y, z] for x in (-0.5, 0.5) for y in (-0.3, 0.3) for z in (-0.2, 0.2)
 PLANE = {"kind": "plane", "point": [0.0, 0.0, 0.0], "normal": [0.0, 0.0, 1.0]}
 
 
-def scene(*bodies: dict, plane=False, damping=0.0, friction=0.0) -> Simulation:
+def scene(*bodies: dict, plane=False, damping=0.0, damping_law="viscous", friction=0.0) -> Simulation:
     case = {
         "field": {"source": "bodies"},
         "water": {"enabled": False},
         "gravity": {"acceleration": 0.0},
-        "contact": {"model": "consistent", "damping": damping, "friction": friction, "stiffness_ratio": RATIO},
+        "contact": {
+            "model": "consistent", "damping": damping, "damping_law": damping_law, "friction": friction, "stiffness_ratio": RATIO,
+        },
         "structure": [PLANE] if plane else [],
         "body": list(bodies),
     }
@@ -63,6 +65,19 @@ def test_force_of_a_ball_on_a_plane(overlap, speed, damping):
     assert found["elastic_power"] == pytest.approx(elastic * speed, rel=1e-6, abs=1e-12)
     assert found["damping_power"] == pytest.approx((max(elastic + viscous, 0.0) - elastic) * speed, rel=1e-6, abs=1e-12)
     assert found["grip"] == 0.0
+
+
+@pytest.mark.parametrize("overlap", [1e-9, 1e-5, 1e-3])
+@pytest.mark.parametrize("speed", [0.0, 0.2, -0.001])
+def test_force_of_a_dashpot_that_vanishes_at_touch(overlap, speed):
+    # F = K d^(3/2) max(0, 1 + a v/sqrt(v^2 + 2 W/m)), a = 1.2579 for the damping 0.36
+    found, simulation = pressed(ball(0.2 - overlap, speed), plane=True, damping=0.36, damping_law="touch")
+    K, mass = 4.0 / 3.0 * modulus(simulation) * np.sqrt(0.2), simulation.model.solids.mass[0]
+    elastic = K * overlap**1.5
+    share = max(0.0, 1.0 + 1.2579 * speed / np.sqrt(speed**2 + 0.8 * elastic * overlap / mass))
+    assert found["normal_force"] == pytest.approx(share * elastic, rel=1e-4)
+    assert found["damping_power"] == pytest.approx((share - 1.0) * elastic * speed, rel=1e-3, abs=1e-12)
+    assert found["damping_power"] >= 0.0
 
 
 def test_a_force_never_pulls():
