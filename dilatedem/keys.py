@@ -64,6 +64,7 @@ def _as_tuple(count: int) -> BeforeValidator:
 Positive = Annotated[float, Field(gt=0)]
 NonNegative = Annotated[float, Field(ge=0)]
 PoissonRatio = Annotated[float, Field(ge=0, lt=0.5)]
+Friction = Annotated[float, Field(ge=0, le=1000)]
 Vector2 = Annotated[tuple[float, float], _as_tuple(2)]
 Vector3 = Annotated[tuple[float, float, float], _as_tuple(3)]
 Size2 = Annotated[tuple[Positive, Positive], _as_tuple(2)]

@@ -13,6 +13,7 @@ from dilatedem.keys import (
     LARGEST_INTEGER,
     Boundary,
     Fault,
+    Friction,
     NonNegative,
     PoissonRatio,
     Positive,
@@ -143,7 +144,7 @@ class Contact(Table):
         "Of `consistent`: a dashpot that acts from the first touch on, or one that vanishes there, so that loads rise from nothing "
         "as elastic ones do. `damping` gives both the same restitution. `liu2015` has the `viscous` one of the paper.",
     )
-    friction: Annotated[float, Field(ge=0, le=1000)] = key(0.1, "", "Coefficient of friction.")
+    friction: Friction = key(0.1, "", "Coefficient of friction; a structure may have its own.")
     stiffness_ratio: Annotated[float, Field(ge=0, le=1000)] = key(0.7, "", "Tangential over normal stiffness.")
 
     def faults(self) -> list[Fault]:

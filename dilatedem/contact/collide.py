@@ -77,7 +77,7 @@ def collide(k, dt, shapes, vertex, face_normal, solids, bodies, pairs, contact, 
         return
     pressed = press(contact, k, dt, shapes, vertex, face_normal, solids, bodies, pairs, offset, normal, pa, pb, gap, scratch)
     arm = sub(pressed.point, offset)
-    held = hold(contact, k, dt, bodies, pairs, pressed, arm)
+    held = hold(contact, k, dt, solids, bodies, pairs, pressed, arm)
     _book(k, dt, pairs, pressed, held, arm)
 
 

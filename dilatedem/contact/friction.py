@@ -23,13 +23,14 @@ class Held(NamedTuple):
 
 
 @item
-def hold(contact, k, dt, bodies, pairs, pressed, arm):
+def hold(contact, k, dt, solids, bodies, pairs, pressed, arm):
     """Friction of contact k, pressed as `Pressed` says, as `Held`; arm: from the centroid of b to the point [m].
 
-    The turning of a patch about its normal stretches the same spring, at the arm `grip`.
+    The turning of a patch about its normal stretches the same spring, at the arm `grip`. Where one of the bodies is a structure,
+    that is b: its coefficient of friction is that of the pair.
     """
     a, b, direction, stiffness = pairs.a[k], pairs.b[k], pressed.direction, pressed.shear_stiffness
-    limit, grip = contact.friction * pressed.normal_force, pairs.grip[k]
+    limit, grip = solids.friction[b] * pressed.normal_force, pairs.grip[k]
     before, before_turned = carried_over(load(pairs.slip, k), direction), pairs.wrung[k]
     slid = relative_velocity(bodies.middle_velocity, bodies.middle_angular_velocity, a, b, pressed.point, arm)
     slid, turned = along(slid, -dot(slid, direction), direction), 0.0

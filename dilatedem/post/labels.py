@@ -39,6 +39,7 @@ KEYS: dict[str, tuple[str, str]] = {
     "structure.point": ("point of the plane", "m"),
     "structure.elastic_modulus": ("elastic modulus of the structure", "Pa"),
     "structure.poisson_ratio": ("Poisson ratio of the structure", ""),
+    "structure.friction": ("friction coefficient of the structure", ""),
     "contact.model": ("contact model", ""),
     "contact.damping": ("damping coefficient", ""),
     "contact.damping_law": ("damping law", ""),

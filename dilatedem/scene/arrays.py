@@ -67,7 +67,7 @@ def _held(scene: Scene) -> np.ndarray:
 def _contact_setting(case: Case) -> ContactSetting:
     contact = case.contact
     setting = CONTACT_SETTINGS[contact.model, contact.damping_law]
-    return setting(own_damping(setting, contact.damping), contact.friction, contact.stiffness_ratio)
+    return setting(own_damping(setting, contact.damping), contact.stiffness_ratio)
 
 
 def _require_one_image(case: Case, reach: np.ndarray, cores: list[Part], periodic: tuple[bool, bool]) -> None:
@@ -89,7 +89,7 @@ def _require_one_image(case: Case, reach: np.ndarray, cores: list[Part], periodi
 
 
 def _solids(case: Case, scene: Scene) -> Solids:
-    """Masses and elasticity; structures are of infinite mass."""
+    """Masses, elasticity and friction; structures are of infinite mass."""
     bodies = scene.count
     of_structures = [_compliance(structure.about) for structure in scene.structures for _ in structure.parts]
     count = bodies + len(of_structures)
@@ -104,7 +104,14 @@ def _solids(case: Case, scene: Scene) -> Solids:
     moving = np.flatnonzero(free)
     inverse_mass[moving] = 1.0 / mass[moving]
     inverse_inertia[moving] = inverse(inertia[moving])
-    return Solids(inverse_mass, mass, inertia, inverse_inertia, compliance)
+    return Solids(inverse_mass, mass, inertia, inverse_inertia, compliance, _friction(case, scene))
+
+
+def _friction(case: Case, scene: Scene) -> np.ndarray:
+    """(n,) coefficients of friction; a structure has that of the contacts unless it has its own."""
+    usual = case.contact.friction
+    own = [structure.about.friction for structure in scene.structures for _ in structure.parts]
+    return np.array([usual] * scene.count + [usual if given is None else given for given in own])
 
 
 def _compliance(material) -> float:

@@ -6,13 +6,14 @@ import numpy as np
 
 
 class Solids(NamedTuple):
-    """Mass and elasticity of n bodies; fixed bodies have zero inverse mass and inertia."""
+    """Mass, elasticity and friction of n bodies; fixed bodies have zero inverse mass and inertia."""
 
     inverse_mass: np.ndarray  # (n,) 1/kg
     mass: np.ndarray  # (n,) kg
     inertia: np.ndarray  # (n, 3, 3) body frame, about the centroid, kg m2
     inverse_inertia: np.ndarray  # (n, 3, 3) body frame, 1/(kg m2)
     compliance: np.ndarray  # (n,) (1 - nu^2)/E, 1/Pa: a body's term of Liu 2015, Eq. (7)
+    friction: np.ndarray  # (n,) mu of Liu 2015, Eq. (6), of a structure with ice; that of ice on ice for a body that floats
 
 
 class Ids(NamedTuple):

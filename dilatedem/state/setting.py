@@ -8,7 +8,6 @@ class ContactSetting(NamedTuple):
     case uses is compiled."""
 
     damping: float  # zeta_n of Liu 2015, Eq. (4): the dashpot over the critical one, where an approach ends
-    friction: float  # mu of Eq. (6)
     stiffness_ratio: float  # r_ns: tangential over normal stiffness
 
 

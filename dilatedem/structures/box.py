@@ -8,11 +8,11 @@ import numpy as np
 from dilatedem.field.obstacles import Obstacle, Region
 from dilatedem.geometry.polyhedron import Polyhedron, prism
 from dilatedem.geometry.shapes import BodyShape
-from dilatedem.keys import Fault, Name, PoissonRatio, Positive, Size2, Vector2, key
+from dilatedem.keys import Fault, Friction, Name, PoissonRatio, Positive, Size2, Vector2, key
 from dilatedem.numerics.frames import quaternion_from_rotation_vector
 from dilatedem.numerics.plain import norm, sine_cosine
 from dilatedem.state.charts import Along
-from dilatedem.structures.kind import Chart, Part, Sketch, Structure, modulus_key, name_key, ratio_key
+from dilatedem.structures.kind import Chart, Part, Sketch, Structure, friction_key, modulus_key, name_key, ratio_key
 
 #: corners in plan, in halves of the size: counter-clockwise, so that the side towards -x comes in the middle
 CORNERS = np.array([[1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0]])
@@ -31,6 +31,7 @@ class Box(Structure):
     dilated_radius: Positive = key(0.1, "m", "Radius by which its edges and corners are rounded; less than half of every side.")
     elastic_modulus: Positive = modulus_key()
     poisson_ratio: PoissonRatio = ratio_key()
+    friction: Friction | None = friction_key()
 
     def faults(self) -> list[Fault]:
         if self.top <= self.bottom:

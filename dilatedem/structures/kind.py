@@ -144,6 +144,11 @@ def ratio_key() -> Any:
     return key(0.3, "", "Poisson's ratio.")
 
 
+def friction_key() -> Any:
+    """The key `friction`."""
+    return key(None, "", "Coefficient of friction with it; `contact.friction` unless given.")
+
+
 def circle(center, radius: float, sides: int = CIRCLE_SIDES) -> np.ndarray:
     """(sides, 2) [m] corners on a circle, counter-clockwise."""
     sine, cosine = sine_cosine(np.arange(sides) * (2.0 * np.pi / sides))

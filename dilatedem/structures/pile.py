@@ -7,7 +7,7 @@ import numpy as np
 from dilatedem.field.obstacles import Disk, Obstacle
 from dilatedem.geometry.polyhedron import Polyhedron, convex_hull, prism
 from dilatedem.geometry.shapes import BodyShape
-from dilatedem.keys import Name, PoissonRatio, Positive, Vector2, key
+from dilatedem.keys import Friction, Name, PoissonRatio, Positive, Vector2, key
 from dilatedem.state.charts import Along
 from dilatedem.structures.kind import (
     DRAWN_BOTTOM,
@@ -18,6 +18,7 @@ from dilatedem.structures.kind import (
     Sketch,
     Structure,
     circle,
+    friction_key,
     modulus_key,
     name_key,
     ratio_key,
@@ -38,6 +39,7 @@ class Pile(Structure):
     radius: Positive = key(2.0, "m", "Radius of the pile.")
     elastic_modulus: Positive = modulus_key()
     poisson_ratio: PoissonRatio = ratio_key()
+    friction: Friction | None = friction_key()
 
     @property
     def place(self) -> np.ndarray:

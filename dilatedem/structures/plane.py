@@ -7,7 +7,7 @@ import numpy as np
 
 from dilatedem.field.obstacles import HalfPlane, Obstacle
 from dilatedem.geometry.polyhedron import Polyhedron, convex_hull
-from dilatedem.keys import Fault, Name, PoissonRatio, Positive, Vector3, key
+from dilatedem.keys import Fault, Friction, Name, PoissonRatio, Positive, Vector3, key
 from dilatedem.numerics.plain import norm
 from dilatedem.state.charts import Along
 from dilatedem.structures.kind import (
@@ -18,6 +18,7 @@ from dilatedem.structures.kind import (
     Part,
     Sketch,
     Structure,
+    friction_key,
     modulus_key,
     name_key,
     ratio_key,
@@ -44,6 +45,7 @@ class Plane(Structure):
     normal: Vector3 = key(..., "", "Direction from the plane towards the ice; any length but zero.")
     elastic_modulus: Positive = modulus_key()
     poisson_ratio: PoissonRatio = ratio_key()
+    friction: Friction | None = friction_key()
 
     def faults(self) -> list[Fault]:
         length = math.hypot(*self.normal)  # of lengths whose squares vanish, too
