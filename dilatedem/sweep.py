@@ -204,9 +204,9 @@ def _run_all(todo: list[Job], waiting: list[Job], workers: int, out: Path, child
     with heard(children), ThreadPoolExecutor(workers) as pool:
         try:
             children.prepare(workers)
-            for model, damping_law in sorted({(job.case.contact.model, job.case.contact.damping_law) for job in waiting}):
+            for kind in sorted({tuple(job.case.laws.items()) for job in waiting}):
                 # by one, or all would compile the same kernels; its failure is left to the cases, which meet and report it
-                children.run({"compile": {"model": model, "damping_law": damping_law}})
+                children.run({"compile": dict(kind)})
             futures = {pool.submit(_run, job, children): job for job in waiting}
             for done, future in enumerate(as_completed(futures), start=1):
                 future.result()

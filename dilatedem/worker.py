@@ -1,7 +1,7 @@
 """A process that runs one case of a sweep after another: the program and its machine code are loaded once.
 
 Each line of its standard input is an order in JSON, {"case": text of a case file, "out": run folder, "resume": false,
-"overwrite": false} or {"compile": {"model": of contact, "damping_law": its dashpot}}. A line of its standard output answers each,
+"overwrite": false} or {"compile": {of `Case.laws`}}. A line of its standard output answers each,
 {"code": exit code, "said": all that the command would have written to standard error}.
 """
 

@@ -57,7 +57,7 @@ def patch_of_pair(shapes, pairs, vertex, face_normal, k, offset, normal, pa, pb,
     """`contact_patch` of pair k, its bodies turned and its corners known by `distance_of_pair`."""
     return contact_patch(
         vertex, face_normal, shapes, pairs.corners[k], pairs.corner_a[k], pairs.corner_b[k], pairs.a[k], pairs.b[k],
-        offset, normal, pa, pb, overlap, scratch,
+        offset, normal, pa, pb, overlap, 0.0, scratch,
     )  # fmt: skip
 
 
@@ -66,7 +66,7 @@ def energy_of_pair(shapes, pairs, vertex, face_normal, k, offset, normal, pb, ov
     """`pose_energy` of pair k, its bodies turned and its corners known by `distance_of_pair`."""
     return pose_energy(
         vertex, face_normal, shapes, pairs.a[k], pairs.b[k], pairs.corners[k], pairs.corner_a[k], pairs.corner_b[k], offset,
-        normal, pb, overlap, modulus, scratch,
+        normal, pb, 0.0, overlap, modulus, scratch,
     )  # fmt: skip
 
 
@@ -84,7 +84,7 @@ def wet_polyhedron(z, nx, ny, nz, hulls, body, works):
 
 def workspace_of(cap_b, cap_a=()) -> np.ndarray:
     """The workspace of the consistent model with the corners (n, 3) [m] of both caps written; n = 0: as it comes."""
-    scratch = np.zeros((6, MOST_CORNERS, 3))
+    scratch = np.zeros((8, MOST_CORNERS, 3))
     for which, corners in enumerate((cap_a, cap_b)):
         scratch[CORNERS + which, : len(corners)] = np.reshape(corners, (-1, 3))
     return scratch
@@ -109,7 +109,7 @@ def around_cap(scratch, count, normal, x, width):
 def point_on_cap(x, radius, scratch, count, normal, other, modulus, shares):
     """`press_vertex` on the cap of b."""
     lay_sides(scratch, 1, count)
-    return press_vertex(x, radius, scratch, 1, count, normal, other, modulus, shares)
+    return press_vertex(x, radius, scratch, 1, count, normal, other, radius + other, modulus, shares)
 
 
 
@@ -117,7 +117,7 @@ def point_on_cap(x, radius, scratch, count, normal, other, modulus, shares):
 def edge_on_cap(p, e, length, radius, scratch, count, normal, other, modulus, sharp):
     """`press_edge` on the cap of b."""
     lay_sides(scratch, 1, count)
-    return press_edge(p, e, length, radius, scratch, 1, count, normal, other, modulus, sharp)
+    return press_edge(p, e, length, radius, scratch, 1, count, normal, other, radius + other, modulus, sharp)
 
 
 @kernel

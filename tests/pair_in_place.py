@@ -50,7 +50,7 @@ class PairInPlace:
         self.bodies = bodies_at_rest(2, 1)
         self.surroundings = Surroundings(*map(float, period))
         self._vertex, self._face_normal = self.shapes.vertex.copy(), self.shapes.face_normal.copy()
-        self._scratch = np.zeros((6, MOST_CORNERS, 3))
+        self._scratch = np.zeros((8, MOST_CORNERS, 3))
         self.forget()
 
     def forget(self) -> None:

@@ -86,6 +86,15 @@ class Ice(Table):
     dilated_radius: Positive = key(0.04, "m", "Radius by which a floe's edges and corners are rounded; at most half the thickness.")
     elastic_modulus: Positive = key(1.0e9, "Pa", "Young's modulus in contact.")
     poisson_ratio: PoissonRatio = key(0.3, "", "Poisson's ratio.")
+    crushing_pressure: Positive | None = key(
+        None,
+        "Pa",
+        "Pressure at which the ice crushes, on a nominal contact area of 1 m2: C of p = C (A/1 m2)^q; 1e6 to 3e6 is measured. "
+        "Without it the ice bears any pressure, as in the paper.",
+    )
+    crushing_exponent: Annotated[float, Field(ge=-0.7, le=0)] = key(
+        0.0, "", "q of p = C (A/1 m2)^q: how the pressure falls with the nominal area of a contact; 0: not at all."
+    )
     initial_velocity: Literal["current"] | Vector3 = key(
         "current",
         "m/s",
@@ -212,6 +221,12 @@ class Case(Table):
     time: Time = Time()
     output: Output = Output()
     body: list[Body] = []
+
+    @property
+    def laws(self) -> dict[str, Any]:
+        """What decides which machine code a run needs: arguments of `run.loop.compile_kernels`."""
+        crushing = self.ice.crushing_pressure is not None
+        return {"model": self.contact.model, "damping_law": self.contact.damping_law, "crushing": crushing}
 
     def faults(self) -> list[Fault]:
         return [*self._name_faults(), *self._body_faults(), *self._track_faults(), *self._check_faults()]

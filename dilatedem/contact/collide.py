@@ -1,12 +1,13 @@
 """One pair of bodies: gap, patch, forces, and the energy that the step cost. The result is written to the pair alone."""
 
+from dilatedem.contact.crushing import remember, worn
 from dilatedem.contact.friction import hold
 from dilatedem.contact.laws import press
 from dilatedem.contact.search.closest import closest_points, farthest_vertex
 from dilatedem.contact.spring import length
 from dilatedem.jit import device, item
 from dilatedem.numerics.vector import accumulate, along, dot, load, scale, store, sub
-from dilatedem.state.ledger import GAIN_LAW, LOSS_DAMPING, LOSS_FRICTION
+from dilatedem.state.ledger import GAIN_LAW, LOSS_CRUSHING, LOSS_DAMPING, LOSS_FRICTION
 
 
 @device
@@ -41,6 +42,7 @@ def _end_contact(pairs, k, dt):
     pairs.cost[k, LOSS_FRICTION] = 0.5 * pairs.shear_stiffness[k] * length(load(pairs.slip, k), pairs.wrung[k]) ** 2
     pairs.cost[k, LOSS_DAMPING] = 0.5 * dt * pairs.damping_power[k]
     pairs.cost[k, GAIN_LAW] = 0.0
+    pairs.cost[k, LOSS_CRUSHING] = 0.0
     pairs.damping_power[k] = 0.0
     pairs.elastic_power[k] = 0.0
     pairs.overlap[k] = 0.0
@@ -59,7 +61,7 @@ def collide(k, dt, shapes, vertex, face_normal, solids, bodies, pairs, contact, 
     """Evaluate pair k at this instant; writes its rows of `pairs` and nothing else.
 
     vertex (v, 3), face_normal (f, 3): turned to world directions; dt [s]: the step that led here, 0 at the start;
-    scratch (6, MOST_CORNERS, 3). A contact's force is repulsive: Liu 2015, Eq. (3), never below zero.
+    scratch (8, MOST_CORNERS, 3). A contact's force is repulsive: Liu 2015, Eq. (3), never below zero.
     """
     a, b = pairs.a[k], pairs.b[k]
     offset = separation(bodies.position, a, b, surroundings)
@@ -69,8 +71,9 @@ def collide(k, dt, shapes, vertex, face_normal, solids, bodies, pairs, contact, 
     else:
         distance, normal, pa, pb = closest_points(vertex, face_normal, shapes, pairs, k, a, b, offset)
     store(pairs.normal, k, normal)
-    gap = distance - shapes.radius[a] - shapes.radius[b]
+    gap = distance - shapes.radius[a] - shapes.radius[b] + worn(contact, k, pairs)
     if gap >= 0.0:
+        gap = remember(contact, k, gap, bodies, pairs, pa)
         pairs.wake[k] = bodies.path[a] + bodies.path[b] + gap
         if pairs.overlap[k] > 0.0:
             _end_contact(pairs, k, dt)
@@ -90,6 +93,7 @@ def _book(k, dt, pairs, pressed, held, arm):
     pairs.cost[k, LOSS_DAMPING] = 0.5 * dt * (held.damping_power + pairs.damping_power[k])
     pairs.cost[k, LOSS_FRICTION] = held.lost
     pairs.cost[k, GAIN_LAW] = pressed.gain + held.made
+    pairs.cost[k, LOSS_CRUSHING] = pressed.crumbled
     pairs.damping_power[k] = held.damping_power
     pairs.elastic_power[k] = pressed.elastic_power
     pairs.overlap[k] = pressed.overlap

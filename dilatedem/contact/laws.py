@@ -17,9 +17,10 @@ and with that of both, and rows of one layout need one kind of list, of copy and
 from dilatedem.contact.consistent import law as consistent
 from dilatedem.contact.liu2015 import law as liu2015
 from dilatedem.jit import by_type
-from dilatedem.state.setting import ConsistentSetting, ConsistentTouchSetting, Liu2015Setting
+from dilatedem.state.setting import CONTACT_SETTINGS
 
-LAWS = {Liu2015Setting: liu2015, ConsistentSetting: consistent, ConsistentTouchSetting: consistent}
+MODELS = {"liu2015": liu2015, "consistent": consistent}
+LAWS = {setting: MODELS[model] for (model, *_), setting in CONTACT_SETTINGS.items()}
 
 press = by_type(liu2015.press, {setting: law.press for setting, law in LAWS.items()})
 carry = by_type(liu2015.carry, {setting: law.carry for setting, law in LAWS.items()})

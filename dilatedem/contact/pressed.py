@@ -18,5 +18,6 @@ class Pressed(NamedTuple):
     dashpot: float  # N s/m, beside that spring before `stiffness_ratio` scales it; 0: none, and nothing asks for the last two
     stored: float  # J
     gain: float  # J that the law made in the last step
+    crumbled: float  # J that crushing cost in the last step
     velocity: tuple  # m/s, of b against a at the point, now
     turning: tuple  # rad/s, of b against a, now

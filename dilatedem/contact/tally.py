@@ -8,6 +8,8 @@ from dilatedem.state.ledger import COSTS
 TERMS = len(COSTS)
 #: overlap, in units of the smaller dilated radius of the two, past which the run stops
 DEEPEST = 4.0
+#: overlap with what has crushed, over the sum of the two dilated radii, past which the run stops: the cores are about to touch
+CRUSHED_THROUGH = 0.95
 
 
 @item
@@ -27,7 +29,12 @@ def book_contact(k, part, dt, structure_of, shapes, contact, pairs, tally):
     tally.mode_impulse[part, on_structure, mode] += pairs.normal_force[k] * dt
     tally.mode_force[part, on_structure, mode] = max(tally.mode_force[part, on_structure, mode], pairs.normal_force[k])
     tally.mode_overlap[part, on_structure, mode] = max(tally.mode_overlap[part, on_structure, mode], pairs.overlap[k])
-    if pairs.overlap[k] > deepest_overlap(pairs.a[k], pairs.b[k], shapes, contact) and tally.deep[part] < 0:
+    a, b = pairs.a[k], pairs.b[k]
+    crushed = pairs.crushed[k]
+    if tally.deep[part] < 0 and (
+        pairs.overlap[k] > deepest_overlap(a, b, shapes, contact)
+        or (crushed > 0.0 and crushed + pairs.overlap[k] > CRUSHED_THROUGH * (shapes.radius[a] + shapes.radius[b]))
+    ):
         tally.deep[part] = k
 
 
@@ -58,7 +65,7 @@ def too_deep(tally, pairs, clock):
         k = tally.deep[part]
         if k >= 0:
             clock.culprit[0], clock.culprit[1] = pairs.a[k], pairs.b[k]
-            clock.measure[0] = pairs.overlap[k]
+            clock.measure[0] = pairs.overlap[k] + pairs.crushed[k]
             return True
     return False
 

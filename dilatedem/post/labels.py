@@ -17,6 +17,8 @@ KEYS: dict[str, tuple[str, str]] = {
     "ice.dilated_radius": ("dilated radius", "m"),
     "ice.elastic_modulus": ("elastic modulus of the ice", "Pa"),
     "ice.poisson_ratio": ("Poisson ratio of the ice", ""),
+    "ice.crushing_pressure": ("crushing pressure of the ice", "Pa"),
+    "ice.crushing_exponent": ("exponent of the crushing pressure", ""),
     "ice.initial_velocity": ("initial speed of the ice", "m/s"),
     "water.density": ("density of the water", "kg/m³"),
     "water.velocity": ("current speed", "m/s"),

@@ -5,6 +5,7 @@ import math
 from dilatedem.motion.paces import LONGEST_MOVE
 from dilatedem.scene.overlaps import body_name
 from dilatedem.state.clock import Status
+from dilatedem.state.setting import CRUSHING_SETTINGS
 
 
 def fault(simulation, status: Status) -> str:
@@ -15,6 +16,11 @@ def fault(simulation, status: Status) -> str:
     measure = float(clock.measure[0])
     if status == Status.TOO_DEEP:
         cause = f"{names[0]} and {names[1]} overlap by {measure:.3g} m, more than their rounded edges can mean"
+        if isinstance(model.contact, CRUSHING_SETTINGS):
+            cause = (
+                f"{names[0]} and {names[1]} have crushed into each other by {measure:.3g} m, farther than their dilated radii "
+                "reach together; larger ones take more"
+            )
     else:
         cause = f"{names[0]} moved without bound in one step"
         if math.isfinite(measure):

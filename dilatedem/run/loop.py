@@ -96,11 +96,11 @@ def run_case(
     return Run(run(case_from(case, overrides), folder, threads=threads, resume=resume, overwrite=overwrite, quiet=quiet))
 
 
-def compile_kernels(threads: int = 1, model: str = "liu2015", damping_law: str = "viscous") -> None:
-    """Compile what a run with a contact model and its damping law needs, or load it from the cache."""
+def compile_kernels(threads: int = 1, model: str = "liu2015", damping_law: str = "viscous", crushing: bool = False) -> None:
+    """Compile what a run with such `Case.laws` needs, or load it from the cache."""
     case = Case.model_validate({
         "field": {"source": "bodies"}, "body": [{"vertices": [[0.0, 0.0, 0.0]], "dilated_radius": 0.1}],
-        "contact": {"model": model, "damping_law": damping_law},
+        "contact": {"model": model, "damping_law": damping_law}, "ice": {"crushing_pressure": 1.0e6} if crushing else {},
     })  # fmt: skip
     Simulation.of_case(case, threads=threads).advance(1)
 
@@ -111,8 +111,7 @@ def _compile(simulation: Simulation, progress: Progress) -> float:
     if not simulation.is_compiled():
         progress.message("compiling, once (about half a minute)")
     try:
-        contact = simulation.case.contact
-        compile_kernels(simulation.threads, contact.model, contact.damping_law)
+        compile_kernels(simulation.threads, **simulation.case.laws)
     except KeyboardInterrupt:
         raise Interrupted("interrupted while compiling; no file was touched") from None
     return time.perf_counter() - started

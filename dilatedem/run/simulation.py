@@ -30,6 +30,7 @@ from dilatedem.state.ledger import Ledger, empty_ledger, energies
 from dilatedem.state.loads import Loads, Windows, empty_loads, no_windows
 from dilatedem.state.model import Model
 from dilatedem.state.pairs import Pairs, empty_pairs, grown, in_use
+from dilatedem.state.setting import CRUSHING_SETTINGS
 from dilatedem.state.storage import Cells, Tally, Workspace, empty_tally, make_cells, make_workspace
 from dilatedem.step.advance import advance
 from dilatedem.water.loads import WORKS, works_of
@@ -231,7 +232,8 @@ class Simulation:
         done["work_structure"] = 0.0  # they do not move
         if self.events:
             done["carried_out"] = float(ledger.carried_out[0])
-        return energies(ledger, done)
+        absent = () if isinstance(self.model.contact, CRUSHING_SETTINGS) else ("loss_crushing",)
+        return energies(ledger, done, absent)
 
     def assembled_step_ratio(self) -> float:
         """dt over the critical step of the contacts that were open when `advance` came back (an upper bound)."""

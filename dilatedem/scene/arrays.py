@@ -66,8 +66,10 @@ def _held(scene: Scene) -> np.ndarray:
 
 def _contact_setting(case: Case) -> ContactSetting:
     contact = case.contact
-    setting = CONTACT_SETTINGS[contact.model, contact.damping_law]
-    return setting(own_damping(setting, contact.damping), contact.stiffness_ratio)
+    pressure, exponent = case.ice.crushing_pressure, case.ice.crushing_exponent
+    setting = CONTACT_SETTINGS[contact.model, contact.damping_law, pressure is not None]
+    damping = own_damping(setting, contact.damping)
+    return setting(damping, contact.stiffness_ratio, *([] if pressure is None else [pressure, exponent]))
 
 
 def _require_one_image(case: Case, reach: np.ndarray, cores: list[Part], periodic: tuple[bool, bool]) -> None:

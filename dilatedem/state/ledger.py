@@ -4,6 +4,7 @@ A new term is a line of the table, besides where it is computed: the columns of 
 each pair books and the sums over pairs follow.
 """
 
+from collections.abc import Collection
 from typing import NamedTuple
 
 import numpy as np
@@ -35,12 +36,15 @@ TERMS = (
     Term("loss_damping", LOSS, CONTACT, "lost to damping"),
     Term("loss_friction", LOSS, CONTACT, "lost to friction"),
     Term("gain_law", GAIN, CONTACT, "made by jumps of the contact law"),
+    Term("loss_crushing", LOSS, CONTACT, "lost to crushing", optional=True),
     Term("work_wind", GAIN, LOAD, "work of the wind", optional=True),
     Term("carried_out", LOSS, EVENT, "carried out by bodies that left", optional=True),
 )
 #: what contacts cost: the entries of `Pairs.cost`, of `Tally.cost` and of `Ledger.cost`, and the number of each
 COSTS = tuple(term.name for term in TERMS if term.owner == CONTACT)
-LOSS_DAMPING, LOSS_FRICTION, GAIN_LAW = map(COSTS.index, ("loss_damping", "loss_friction", "gain_law"))
+LOSS_DAMPING, LOSS_FRICTION, GAIN_LAW, LOSS_CRUSHING = map(
+    COSTS.index, ("loss_damping", "loss_friction", "gain_law", "loss_crushing")
+)
 #: what an instant has: the entries of `Ledger.instant`, and the number of each
 INSTANTS = tuple(term.name for term in TERMS if term.owner == INSTANT)
 KINETIC, GRAVITY, BUOYANCY, ELASTIC = map(INSTANTS.index, ("kinetic", "gravity", "buoyancy", "elastic"))
@@ -60,10 +64,12 @@ def empty_ledger(works: int = 0) -> Ledger:
     return Ledger(np.zeros(len(COSTS)), np.zeros(len(INSTANTS)), np.zeros(1), np.zeros(works))
 
 
-def energies(ledger: Ledger, works: dict[str, float]) -> dict[str, float]:
+def energies(ledger: Ledger, works: dict[str, float], absent: Collection[str] = ()) -> dict[str, float]:
     """All terms by name [J], in the order of the table.
 
-    works: those that the ledger does not hold. Terms that are optional and not among them are left out.
+    works: those that the ledger does not hold; absent: of those that it holds, what the case does not have. Terms that are optional
+    and not there are left out.
     """
     found = works | dict(zip(COSTS, ledger.cost.tolist(), strict=True)) | dict(zip(INSTANTS, ledger.instant.tolist(), strict=True))
+    found = {name: value for name, value in found.items() if name not in absent}
     return {term.name: found[term.name] for term in TERMS if term.name in found or not term.optional}

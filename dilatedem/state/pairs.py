@@ -51,6 +51,9 @@ COLUMNS = (
     Column("couple", 3, np.float64, RESULT, "N m, on b, along the normal force, beside its moment at `point` (consistent)"),
     Column("tangent", 1, np.float64, RESULT, "N/m, what the normal force rises by with the overlap"),
     Column("size", 1, np.float64, RESULT, "length or area of the patch, m or m2; 1 for a contact at a point"),
+    Column("crushed", 1, np.float64, MEMORY, "m, depth that has crushed"),
+    Column("dent", 1, np.float64, MEMORY, "rad, where around a's vertical axis it did"),
+    Column("bears", 1, np.float64, MEMORY, "N that the ice can take there, less by and by while it is not looked at"),
     Column("rounds", 1, np.int64, LEDGER, "rounds of the last distance search"),
     Column("cost", len(COSTS), np.float64, LEDGER, "J of each of `state.ledger.COSTS` in the last step"),
 )

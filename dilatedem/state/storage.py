@@ -40,7 +40,7 @@ class Workspace(NamedTuple):
     fault: np.ndarray  # (threads,) body that moves too fast, -1 = none
     leap: np.ndarray  # (threads,) m, how far it moved
     surprise: np.ndarray  # (threads,) whether some body has passed its horizon
-    clip: np.ndarray  # (threads, 6, MOST_CORNERS, 3) polygons being clipped, faces that look at each other
+    clip: np.ndarray  # (threads, 8, MOST_CORNERS, 3) polygons being clipped, faces that look at each other
     wet: np.ndarray  # (floating, 5) submerged volume, centre of buoyancy (body frame), wetted area
     hull: np.ndarray  # (threads, h, 4) outer vertices of one body, and their heights
 
@@ -86,7 +86,7 @@ def make_workspace(shapes, hulls, capacity: int, threads: int) -> Workspace:
         fault=np.full(threads, -1, np.int64),
         leap=np.zeros(threads),
         surprise=np.zeros(threads, np.bool_),
-        clip=np.zeros((threads, 6, MOST_CORNERS, 3)),
+        clip=np.zeros((threads, 8, MOST_CORNERS, 3)),
         wet=np.zeros((len(hulls.prism), 5)),
         hull=np.zeros((threads, most, 4)),
     )

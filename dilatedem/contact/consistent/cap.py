@@ -1,7 +1,7 @@
 """The cap of a core: its face that looks at the other body, or its one segment or vertex; and how far a point is from it.
 
 The distance to a convex polygon is smooth wherever it is positive; nothing here asks which features are parallel.
-Rows of `scratch` (6, MOST_CORNERS, 3): 0 and 1 clipping, 2 and 3 the corners of the caps of a and b, 4 and 5 the unit vectors of
+Rows of `scratch` (8, MOST_CORNERS, 3): 0 and 1 clipping, 2 and 3 the corners of the caps of a and b, 4 and 5 the unit vectors of
 their sides. All coordinates are relative to the centroid of body a.
 """
 

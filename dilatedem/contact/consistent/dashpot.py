@@ -15,7 +15,7 @@ from math import fsum, sqrt
 from dilatedem.contact.consistent.line import HEAVY, INNER, LIGHT, OUTER
 from dilatedem.jit import by_type, item
 from dilatedem.numerics.root import bracketed_root
-from dilatedem.state.setting import ConsistentTouchSetting, ContactSetting
+from dilatedem.state.setting import ConsistentTouchCrushingSetting, ConsistentTouchSetting, ContactSetting
 
 #: places and weights of four points of Gauss and Legendre on 0..1
 GAUSS = tuple((0.5 + 0.5 * x, 0.5 * w) for x, w in ((-OUTER, LIGHT), (-INNER, HEAVY), (INNER, HEAVY), (OUTER, LIGHT)))
@@ -39,12 +39,12 @@ def _vanishing(contact, elastic, stored, approach):
 
 #: dashpot(contact, elastic, stored, approach): c [N s/m] by the type of the contact setting, whose damping is xi or z; elastic: F
 #: [N]; stored: W/m* [m2/s2]; approach: (dW/dt)/F [m/s]
-dashpot = by_type(_viscous, {ConsistentTouchSetting: _vanishing})
+dashpot = by_type(_viscous, {ConsistentTouchSetting: _vanishing, ConsistentTouchCrushingSetting: _vanishing})
 
 
 def own_damping(setting: type[ContactSetting], damping: float) -> float:
     """The damping of a contact setting with the restitution that `damping` gives with `viscous`: z of `touch`."""
-    if setting is not ConsistentTouchSetting or damping == 0.0:
+    if not issubclass(setting, ConsistentTouchSetting) or damping == 0.0:
         return damping
     loss = viscous_loss(damping)
     most = MOST * damping * (1.0 + damping)

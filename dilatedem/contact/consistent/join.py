@@ -127,15 +127,15 @@ def _runs_past(scratch, which, count, normal, p, d, square):
 
 
 @device
-def _press_rims(own, scratch, count, radius, their, other, normal, overlap, longest, modulus, sums):
+def _press_rims(own, scratch, count, radius, their, other, normal, reach, overlap, longest, modulus, sums):
     """Add the edges and vertices of cap `own` (0: of a, 1: of b) that press on the other cap to the sums of `_join`; returns those
     with the mode and size of the leading feature.
 
-    count, radius: corners and dilated radius of cap `own`; their, other, normal: of the other cap; longest: length that no contact
-    of an edge exceeds [m].
+    count, radius: corners and dilated radius of cap `own`; their, other, normal: of the other cap; reach [m]: of both dilations,
+    less what has crushed; longest: length that no contact of an edge exceeds [m].
     """
     largest, total, force, moment, mode, size, spread = sums
-    which, sign, reach = 1 - own, 2.0 * own - 1.0, radius + other
+    which, sign = 1 - own, 2.0 * own - 1.0
     flat = their > 2 or their == UNBOUNDED
     for i in range(count if count > 2 else count - 1):
         p, e = corner_of(scratch, own, i), side_of(scratch, own, i)
@@ -163,7 +163,9 @@ def _press_rims(own, scratch, count, radius, their, other, normal, overlap, long
                 continue
             if their != UNBOUNDED and _runs_past(scratch, which, their, normal, p, d, reach * reach - above * above):
                 continue
-        energy, more, turn, line, across = press_edge(p, e, length, radius, scratch, which, their, normal, other, modulus, SHARP)
+        energy, more, turn, line, across = press_edge(
+            p, e, length, radius, scratch, which, their, normal, other, reach, modulus, SHARP
+        )
         if energy > NEGLECTED * largest:
             if energy > largest:
                 mode, size = EDGE_FACE, line
@@ -177,7 +179,7 @@ def _press_rims(own, scratch, count, radius, their, other, normal, overlap, long
             deepest = reach - dot(sub(x, corner_of(scratch, which, 0)), normal)
             if deepest <= 0.0 or _point_bound(modulus, deepest, radius) < NEGLECTED * largest:
                 continue
-        energy, more, across, beyond = press_vertex(x, radius, scratch, which, their, normal, other, modulus, SHARE)
+        energy, more, across, beyond = press_vertex(x, radius, scratch, which, their, normal, other, reach, modulus, SHARE)
         if energy > NEGLECTED * largest:
             if energy > largest:
                 mode, size = VERTEX_FACE if across < 0.5 else (VERTEX_EDGE if beyond < 0.5 else VERTEX_VERTEX), 1.0
@@ -199,15 +201,15 @@ def _lay_out(vertex, shapes, a, b, fa, fb, offset, pb, half_space, scratch):
 
 @item
 def pose_energy(
-    vertex, face_normal, shapes, a, b, corners, corner_a, corner_b, offset, normal, pb, overlap, modulus, scratch
+    vertex, face_normal, shapes, a, b, corners, corner_a, corner_b, offset, normal, pb, crushed, overlap, modulus, scratch
 ):  # fmt: skip
     """Energy W [J] of the pose of two bodies whose dilations overlap; force on b [N] and its moment about a's centroid [N m];
     mode, size (area, length or 1) and spread of the leading feature: two vectors [m] whose squares add up to the second moments of
     its overlap.
 
     corner_a, corner_b: [:corners] the closest vertices of each core; offset: centroid of b, normal: unit, from a to b; pb: witness
-    point on b; all relative to a's centroid; overlap [m]: of the dilations, the deepest there is; scratch (6, MOST_CORNERS, 3). The
-    cores must not intersect. b may be a half space.
+    point on b; all relative to a's centroid; crushed [m]: what the reach of both dilations has lost; overlap [m]: of what is left,
+    the deepest there is; scratch (8, MOST_CORNERS, 3). The cores must not intersect. b may be a half space.
     """
     ra, rb = shapes.radius[a], shapes.radius[b]
     half_space = shapes.kind[b] != 0
@@ -221,7 +223,7 @@ def pose_energy(
         fb = facing(vertex, face_normal, shapes, b, corners, corner_b, normal_b)
         if fb >= 0:
             normal_b = load(face_normal, fb)
-    reach = ra + rb
+    reach = ra + rb - crushed
     sums = 0.0, 0.0, NONE, NONE, VERTEX_FACE, 1.0, (NONE, NONE)
     longest, bluntest, needed, told, energy = FAR, max(ra, rb), True, False, 0.0
     more, turn, area, spread, patch = NONE, NONE, 0.0, (NONE, NONE), (0, 0, 0.0, FAR, FAR)
@@ -243,9 +245,9 @@ def pose_energy(
             na, nb = _lay_out(vertex, shapes, a, b, fa, fb, offset, pb, half_space, scratch)
         lay_sides(scratch, 0, na)
         lay_sides(scratch, 1, nb)
-        sums = _press_rims(0, scratch, na, ra, nb, rb, normal_b, overlap, longest, modulus, sums)
+        sums = _press_rims(0, scratch, na, ra, nb, rb, normal_b, reach, overlap, longest, modulus, sums)
         if not half_space:
-            sums = _press_rims(1, scratch, nb, rb, na, ra, normal_a, overlap, longest, modulus, sums)
+            sums = _press_rims(1, scratch, nb, rb, na, ra, normal_a, reach, overlap, longest, modulus, sums)
     largest, total, force, moment, mode, size, spread = sums
     if largest == 0.0:
         return 0.0, NONE, NONE, mode, size, spread

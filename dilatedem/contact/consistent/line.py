@@ -110,13 +110,13 @@ def _beside(w, region, out, normal):
 
 
 @item
-def _past_corner(x, e, half, w, turn, scratch, which, count, normal, place, reach):
+def _past_corner(x, e, half, w, turn, scratch, which, count, normal, place, reach, width):
     """Integral of the squared overlap times the squared way beyond a corner, minus its gradient as force and moment."""
     i4, f4, m4 = 0.0, NONE, NONE
     for g in range(4):
         at = half * (OUTER if g % 2 == 0 else INNER) * (1.0 if g < 2 else -1.0)
         from_cap, point = along(w, at, turn), along(x, at, e)
-        _, corner, _, gradient = overhang(scratch, which, count, normal, CORNER, place, from_cap, BLEND * reach)
+        _, corner, _, gradient = overhang(scratch, which, count, normal, CORNER, place, from_cap, width)
         if corner > 0.0:
             overlap = 0.5 * (reach * reach - dot(from_cap, from_cap)) / reach
             square = half * (LIGHT if g % 2 == 0 else HEAVY) * overlap
@@ -126,7 +126,7 @@ def _past_corner(x, e, half, w, turn, scratch, which, count, normal, place, reac
 
 
 @item
-def _add_piece(sums, x, e, low, high, w, turn, scratch, which, count, normal, region, place, reach):
+def _add_piece(sums, x, e, low, high, w, turn, scratch, which, count, normal, region, place, reach, width):
     """Add low..high of the line x + s e over one region of the cap, w + s turn from the cap to it, to the sums: the integrals of
     overlap, its square, its square times the squared way beyond the border and beyond a corner, each with minus its
     gradient as force and moment on the edge's body.
@@ -167,21 +167,22 @@ def _add_piece(sums, x, e, low, high, w, turn, scratch, which, count, normal, re
         m3 = along(along(m3, -2.0 * second, cross(x, b)), -2.0 * square1, add(cross(x, c), cross(e, b)))
         m3 = along(m3, -2.0 * square2, cross(e, c))
     if region == CORNER:
-        more, force, moment = _past_corner(x, e, half, w, turn, scratch, which, count, normal, place, reach)
+        more, force, moment = _past_corner(x, e, half, w, turn, scratch, which, count, normal, place, reach, width)
         i4, f4, m4 = i4 + more, add(f4, force), add(m4, moment)
     return i1, i2, f1, f2, m1, m2, i3, f3, m3, i4, f4, m4
 
 
 @item
-def press_edge(p, e, length, radius, scratch, which, count, normal, other, modulus, sharp):
+def press_edge(p, e, length, radius, scratch, which, count, normal, other, reach, modulus, sharp):
     """Energy W [J] of an edge p + s e, s = 0..length, on cap `which`; force on the edge's body and its moment about the origin;
     length of the contact [m]; 0..1: how far it is past the border of the cap's face.
 
-    radius, other: dilated radius of the edge's body and of the cap's; sharp: exponent of the join. Two edges that meet press each
-    on the other: each gets a share of the energy, the sharper one the larger (along it, the contact is the longer). The overlap is
-    measured as (R^2 - d^2)/(2 R), R the sum of the radii, d the distance from the cap: the overlap itself but for overlap/(2 R).
+    radius, other: dilated radius of the edge's body and of the cap's; reach: their sum R, less what has crushed; sharp: exponent of
+    the join. Two edges that meet press each on the other: each gets a share of the energy, the sharper one the larger (along it,
+    the contact is the longer). The overlap is measured as (R^2 - d^2)/(2 R), d the distance from the cap: the overlap itself but
+    for overlap/(2 R).
     """
-    reach = radius + other
+    width = BLEND * (radius + other)
     s, high = 0.0, length
     if count != 1 and count != 2:
         # no closer than `reach` to the plane of the cap: nothing to press
@@ -210,7 +211,7 @@ def press_edge(p, e, length, radius, scratch, which, count, normal, other, modul
             turn = along(e, -dot(e, side), side)
         begin, stop = _pressing(w, turn, reach, -STEP * length, way)
         if stop > begin:
-            sums = _add_piece(sums, x, e, begin, stop, w, turn, scratch, which, count, normal, region, place, reach)
+            sums = _add_piece(sums, x, e, begin, stop, w, turn, scratch, which, count, normal, region, place, reach, width)
         s += max(way, 0.0)
     return _whole_line(sums, radius, other, 1 <= count <= 2, modulus, sharp)
 

@@ -25,20 +25,19 @@ def elliptic(trace, determinant):
 
 
 @item
-def press_vertex(x, radius, scratch, which, count, normal, other, modulus, shares):
+def press_vertex(x, radius, scratch, which, count, normal, other, reach, modulus, shares):
     """Energy W [J] of a vertex at x that presses on cap `which`, its force on the vertex's body [N], and 0..1, how far it is past
     a border of the cap's face, and past a corner.
 
-    radius, other: dilated radius of the vertex's body and of the cap's; shares: ln 2 over the exponent of the join. Two vertices
-    that meet press each on the other: each gets its share of the energy.
+    radius, other: dilated radius of the vertex's body and of the cap's; reach: their sum, less what has crushed; shares: ln 2 over
+    the exponent of the join. Two vertices that meet press each on the other: each gets its share of the energy.
     """
-    reach = radius + other
     region, place, w = nearest(scratch, which, count, normal, x)
     distance = sqrt(dot(w, w))
     overlap = reach - distance
     if overlap <= 0.0 or distance == 0.0:
         return 0.0, (0.0, 0.0, 0.0), 0.0, 0.0
-    width = BLEND * reach
+    width = BLEND * (radius + other)
     side, end, side_gradient, end_gradient = overhang(scratch, which, count, normal, region, place, w, width)
     across, across_slope = ramp(side / width)
     beyond, beyond_slope = ramp(end / width)

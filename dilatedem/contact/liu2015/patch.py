@@ -149,20 +149,22 @@ def _edge_along_edge(pa, qa, pb, qb, normal, ra, rb):
 
 
 @item
-def contact_patch(vertex, face_normal, shapes, corners, corner_a, corner_b, a, b, offset, normal, pa, pb, overlap, scratch):
+def contact_patch(
+    vertex, face_normal, shapes, corners, corner_a, corner_b, a, b, offset, normal, pa, pb, overlap, crushed, scratch
+):  # fmt: skip
     """Mode of the contact of a and b, whether a has the lower feature, point of application, overlap, size, sine of two edges.
 
     vertex (v, 3), face_normal (f, 3): turned to world directions; corner_a, corner_b (4,): closest corners; offset, normal, pa, pb:
     centroid of b, unit normal, witness points on the cores, all relative to a's centroid [m]; overlap > 0 [m];
-    scratch (2, MOST_CORNERS, 3). Features rank corner, edge, face. overlap: the deepest; for a patch, what holds at its centroid
-    is returned. size: length [m] or area [m2] of the penetrating part, 1 for a point. b may be a half space (`pb` is then on its
-    plane). Liu 2015, section 2.
+    crushed [m]: what a's dilation has lost; scratch (2, MOST_CORNERS, 3). Features rank corner, edge, face. overlap: the deepest;
+    for a patch, what holds at its centroid is returned. size: length [m] or area [m2] of the penetrating part, 1 for a point. b may
+    be a half space (`pb` is then on its plane). Liu 2015, section 2.
     """
-    ra, rb = shapes.radius[a], shapes.radius[b]
+    ra, rb = shapes.radius[a] - crushed, shapes.radius[b]
     middle = along(scale(0.5, add(pa, pb)), 0.5 * (ra - rb), normal)
-    half_space = shapes.kind[b] != 0
+    half_space, a_lower = shapes.kind[b] != 0, shapes.radius[a] <= rb
     rim = RIM * min(shapes.reach[a], shapes.reach[b])  # a half space, whose reach is 0, has none
-    narrow = sqrt((ra if half_space else min(ra, rb)) * overlap)
+    narrow = sqrt((shapes.radius[a] if half_space else min(shapes.radius[a], rb)) * overlap)
     t1, t2 = tangents(normal)
     kind_a, i, j = support_feature(vertex, face_normal, shapes, a, corner_a, max(corners, 1), normal)
     if half_space:
@@ -182,8 +184,8 @@ def contact_patch(vertex, face_normal, shapes, corners, corner_a, corner_b, a, b
             if area >= narrow * extent:
                 return FACE_FACE, True, point, h - hb, area, 0.0
             if extent >= narrow:
-                return (EDGE_PARALLEL if width < narrow else EDGE_FACE), ra <= rb, point, h - hb, extent, 0.0
-            return VERTEX_FACE, ra <= rb, point, overlap, 1.0, 0.0
+                return (EDGE_PARALLEL if width < narrow else EDGE_FACE), a_lower, point, h - hb, extent, 0.0
+            return VERTEX_FACE, a_lower, point, overlap, 1.0, 0.0
     elif kind_a == EDGE and kind_b == FACE:
         p, q = load(vertex, i), load(vertex, j)
         mode, point, depth, length = _edge_patch(

@@ -6,6 +6,7 @@ results, is said in docs/theory.md.
 
 from math import pi, sqrt
 
+from dilatedem.contact.crushing import UNTRIED, WHOLE, note_crushed, settle, worn
 from dilatedem.contact.liu2015.patch import (
     EDGE_CROSSING,
     EDGE_FACE,
@@ -79,15 +80,16 @@ def stored_energy(stiffness, exponent, overlap):
 
 
 @item
-def _law_gain(pairs, k, dt, mode, overlap, stiffness, exponent, elastic, elastic_power):
-    """Energy that the normal law made in the last step [J]: more is stored than the bodies' approach has paid for.
+def _law_gain(pairs, k, dt, mode, overlap, stiffness, exponent, elastic, elastic_power, crumbled):
+    """Energy that the normal law made in the last step [J]: more is stored than the bodies' approach has paid for, less what
+    crushing took.
 
     The stiffness may change at one overlap (mode, size of the patch), and the centroid of a patch may wander to where the overlap
     is another. For a contact at a point only the first can happen; its overlap is left to the approach, so that an error
     of the distance would show in the ledger's residual.
     """
     old, old_stiffness, old_exponent = pairs.overlap[k], pairs.stiffness[k], pairs.exponent[k]
-    paid = 0.5 * dt * (elastic_power + pairs.elastic_power[k])
+    paid = 0.5 * dt * (elastic_power + pairs.elastic_power[k]) - crumbled
     if mode != pairs.mode[k]:
         # each mode measures the overlap at a place of its own
         return stored_energy(stiffness, exponent, overlap) - stored_energy(old_stiffness, old_exponent, old) - paid
@@ -105,27 +107,36 @@ def press_liu2015(contact, k, dt, shapes, vertex, face_normal, solids, bodies, p
     Arguments as in `collide`; offset, normal, pa, pb: centroid of b, unit normal, witness points, from a's centroid; gap < 0 [m].
     """
     a, b = pairs.a[k], pairs.b[k]
-    mode, a_lower, point, overlap, size, sine = contact_patch(
-        vertex, face_normal, shapes, pairs.corners[k], pairs.corner_a[k], pairs.corner_b[k], a, b, offset, normal, pa, pb, -gap,
-        scratch,
-    )  # fmt: skip
+    crushed = worn(contact, k, pairs)
+    whole = crushed - gap  # overlap of what has not crushed [m]
     modulus = 1.0 / (solids.compliance[a] + solids.compliance[b])
-    first, second = shapes.radius[a], shapes.radius[b]
-    if not a_lower:
-        first, second = second, first
-    stiffness, exponent = normal_stiffness(mode, modulus, first, second, size, sine)
-    velocity = relative_velocity(bodies.velocity, bodies.angular_velocity, a, b, point, sub(point, offset))
-    approach = -dot(velocity, normal)
-    mass = reduced_mass(a, b, solids)
-    elastic = stiffness * power(overlap, exponent)
-    viscous = damping_coefficient(contact.damping, mass, stiffness) * power(overlap, exponent - 1.0) * approach
-    normal_force = max(elastic + viscous, 0.0)  # Eq. (3)
+    search, found, settled = UNTRIED, WHOLE, False
+    while not settled:
+        mode, a_lower, point, overlap, size, sine = contact_patch(
+            vertex, face_normal, shapes, pairs.corners[k], pairs.corner_a[k], pairs.corner_b[k], a, b, offset, normal, pa, pb,
+            whole - crushed, crushed, scratch,
+        )  # fmt: skip
+        first, second = shapes.radius[a], shapes.radius[b]
+        if not a_lower:
+            first, second = second, first
+        stiffness, exponent = normal_stiffness(mode, modulus, first, second, size, sine)
+        velocity = relative_velocity(bodies.velocity, bodies.angular_velocity, a, b, point, sub(point, offset))
+        approach = -dot(velocity, normal)
+        mass = reduced_mass(a, b, solids)
+        elastic = stiffness * power(overlap, exponent)
+        viscous = damping_coefficient(contact.damping, mass, stiffness) * power(overlap, exponent - 1.0) * approach
+        settled, crushed, search, found = settle(
+            contact, k, search, crushed, elastic, elastic + viscous, stored_energy(stiffness, exponent, overlap),
+            whole - crushed, vertex, face_normal, shapes, pairs, offset, normal, pa, pb, scratch,
+        )  # fmt: skip
+    note_crushed(contact, k, crushed, found, bodies, pairs, pa)
+    normal_force = min(max(elastic + viscous, 0.0), found.limit)  # Eq. (3)
     shear_stiffness = contact.stiffness_ratio * stiffness * power(overlap, exponent - 1.0)
     elastic_power = elastic * approach
     damping_power = (normal_force - elastic) * approach
     gain = 0.0
     if pairs.overlap[k] > 0.0:
-        gain = _law_gain(pairs, k, dt, mode, overlap, stiffness, exponent, elastic, elastic_power)
+        gain = _law_gain(pairs, k, dt, mode, overlap, stiffness, exponent, elastic, elastic_power, found.lost)
     pairs.stiffness[k] = stiffness
     pairs.exponent[k] = exponent
     pairs.tangent[k] = exponent * stiffness * power(overlap, exponent - 1.0)
@@ -133,5 +144,5 @@ def press_liu2015(contact, k, dt, shapes, vertex, face_normal, solids, bodies, p
     return Pressed(
         mode=mode, size=size, overlap=overlap, point=point, direction=normal, normal_force=normal_force,
         elastic_power=elastic_power, damping_power=damping_power, shear_stiffness=shear_stiffness, dashpot=0.0,
-        stored=stored_energy(stiffness, exponent, overlap), gain=gain, velocity=at_rest, turning=at_rest,
+        stored=stored_energy(stiffness, exponent, overlap), gain=gain, crumbled=found.lost, velocity=at_rest, turning=at_rest,
     )  # fmt: skip

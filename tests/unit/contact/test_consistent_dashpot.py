@@ -10,7 +10,7 @@ from dilatedem.contact.consistent.dashpot import own_damping, touch_loss, viscou
 from dilatedem.state.setting import CONTACT_SETTINGS
 from tests.verification.normal_impact import restitution_of_oscillator
 
-VISCOUS, TOUCH = (CONTACT_SETTINGS["consistent", law] for law in ("viscous", "touch"))
+VISCOUS, TOUCH = (CONTACT_SETTINGS["consistent", law, False] for law in ("viscous", "touch"))
 #: damping of the case -> a = 2 z
 FACTORS = {0.05: 0.2275, 0.1: 0.4369, 0.2: 0.7970, 0.3: 1.0871, 0.36: 1.2579, 0.5: 1.6792, 0.7: 2.3268, 1.0: 3.3787}
 

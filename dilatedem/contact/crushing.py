@@ -1,0 +1,190 @@
+"""Ice that crushes: what it has lost at a contact, and how much more it loses where elasticity asks for more than it can bear.
+
+A contact remembers its crushed depth d. The elastic law sees the reach of both dilations less d, and d grows exactly where its
+force would exceed the pressure p of crushed ice on the nominal area A (`contact.nominal`):
+
+    F(pose, d) <= p A(pose, d),    d' >= 0,    d' (p A - F) = 0,    p = C (A/1 m2)^q.
+
+F falls and p A rises with d: there is one root, and the contact never gets stiffer. What crushing costs is the integral of p A dd.
+The depth stays with the pair, through all modes, until the bodies are GONE apart; where they come off and turn to another place of
+the floe, what is left of it there is what still overlaps.
+"""
+
+from math import atan2, exp, inf, log, pi, sqrt
+from typing import NamedTuple
+
+from dilatedem.contact.nominal import nominal_area
+from dilatedem.jit import by_type, item
+from dilatedem.numerics.rotation import rotation_matrix, to_body
+from dilatedem.numerics.vector import dot
+from dilatedem.state.setting import CRUSHING_SETTINGS
+
+#: gap of what has not crushed [m] at which a contact forgets its crushed depth: the next hit will be at another place
+GONE = 0.1
+#: difference of force and limit, over the limit, at which the crushed depth is found
+CLOSE = 2e-5
+#: evaluations of a contact in which it is found: two or three but for the first step of a hit
+MOST = 40
+#: what is left of the limit of a contact, as it is remembered, after each step in which it was not looked at: the pose may have
+#: changed, and the nearer a contact is to its limit, the sooner it is looked at again
+FADING = 0.99
+
+
+class Search(NamedTuple):
+    """On the way to the crushed depth at which force and limit are equal."""
+
+    tries: int
+    low: float  # m, where the force is above the limit
+    high: float  # m, where it is below
+    first: float  # m, the crushed depth of the last step
+    first_limit: float  # N, the limit there
+
+
+class Crushed(NamedTuple):
+    """What crushing says of a contact."""
+
+    limit: float  # N, of the elastic force and damping together
+    lost: float  # J in this step
+
+
+#: of a contact that was not looked at yet
+UNTRIED = Search(0, 0.0, inf, 0.0, 0.0)
+#: of a contact that bears everything
+WHOLE = Crushed(inf, 0.0)
+
+
+@item
+def _nothing_worn(contact, k, pairs):
+    return 0.0
+
+
+@item
+def _worn(contact, k, pairs):
+    """Crushed depth of pair k [m]."""
+    return pairs.crushed[k]
+
+
+@item
+def _never_settles(
+    contact, k, search, crushed, force, damped, stored, overlap, vertex, face_normal, shapes, pairs, offset, normal, pa, pb,
+    scratch,
+):  # fmt: skip
+    return True, crushed, search, WHOLE
+
+
+@item
+def _settle(
+    contact, k, search, crushed, force, damped, stored, overlap, vertex, face_normal, shapes, pairs, offset, normal, pa, pb,
+    scratch,
+):  # fmt: skip
+    """Whether the crushed depth [m] of pair k is found; the depth, to be tried next where it is not; the search; what it means.
+
+    force [N], stored [J], overlap [m]: of the elastic law at `crushed`; damped [N]: that force with its dashpot; the rest as of
+    `nominal_area`. Where what the ice bore when it was last looked at is more by far, it need not be looked at again.
+    """
+    if search.tries == 0 and damped <= pairs.bears[k]:
+        return True, crushed, search, Crushed(FADING * pairs.bears[k], 0.0)
+    area, rate = nominal_area(vertex, face_normal, shapes, pairs.a[k], pairs.b[k], offset, normal, pa, pb, crushed, scratch)
+    limit, limit_rate = _limit(contact, area, rate)
+    tries, low, high, first, first_limit = search
+    excess = force - limit
+    if tries == 0:
+        if excess <= 0.0:
+            return True, crushed, search, Crushed(limit, 0.0)
+        low, high = crushed, crushed + overlap
+        first, first_limit = crushed, limit
+    elif abs(excess) <= CLOSE * limit or tries > MOST:
+        return True, crushed, search, Crushed(max(limit, force), 0.5 * (first_limit + force) * (crushed - first))
+    elif excess > 0.0:
+        low = crushed
+    else:
+        high = crushed
+    further = high
+    if tries < MOST:
+        further = crushed + _step(excess, force, stored, overlap, limit, limit_rate)
+        if not low < further < high:
+            further = 0.5 * (low + high)
+    return False, further, Search(tries + 1, low, high, first, first_limit), Crushed(limit, 0.0)
+
+
+@item
+def _limit(contact, area, rate):
+    """What crushed ice bears on an area [N], and its derivative by the depth [N/m], from that of the area [m]."""
+    if contact.crushing_exponent == 0.0:
+        return contact.crushing_pressure * area, contact.crushing_pressure * rate
+    if area == 0.0:
+        return 0.0, inf
+    pressure = contact.crushing_pressure * exp(contact.crushing_exponent * log(area))
+    return pressure * area, (1.0 + contact.crushing_exponent) * pressure * rate
+
+
+@item
+def _step(excess, force, stored, overlap, limit, limit_rate):
+    """How much deeper [m] the force is equal to the limit: by a power law of the overlap, and a limit that rises evenly."""
+    if not (force > 0.0 and limit_rate < inf):
+        return 0.0
+    power = max(force * overlap / stored - 1.0, 0.5)
+    rise = limit_rate * overlap
+    share = excess / (power * force + rise)
+    if 0.0 < share < 1.0:
+        left = force * exp(power * log(1.0 - share))
+        share += (left - limit - rise * share) / (power * left / (1.0 - share) + rise)
+    return share * overlap
+
+
+@item
+def _keeps(contact, k, gap, bodies, pairs, pa):
+    return gap
+
+
+@item
+def _remember(contact, k, gap, bodies, pairs, pa):
+    """The gap [m] of pair k, which has come off, with what it still remembers of its crushed depth.
+
+    pa: place on a's core that is nearest, from a's centroid.
+    """
+    crushed = pairs.crushed[k]
+    if crushed == 0.0:
+        return gap
+    whole = gap - crushed
+    turn = abs(_place(bodies.orientation, pairs.a[k], pa) - pairs.dent[k])
+    aside = min(turn, 2.0 * pi - turn) * sqrt(dot(pa, pa))
+    left = crushed
+    if whole > GONE:
+        left = 0.0
+    elif aside * aside * contact.crushing_pressure > pairs.bears[k]:  # beyond the root of its area
+        left = min(crushed, max(-whole, 0.0))
+    pairs.crushed[k] = left
+    return whole + left
+
+
+@item
+def _place(orientation, body, point):
+    """Where around its vertical axis a point of a body lies [rad]; point: from its centroid, in world directions."""
+    R = rotation_matrix(orientation[body, 0], orientation[body, 1], orientation[body, 2], orientation[body, 3])
+    x, y, _ = to_body(R, point)
+    return atan2(y, x)
+
+
+@item
+def _note_nothing(contact, k, crushed, found, bodies, pairs, pa):
+    pass
+
+
+@item
+def _note(contact, k, crushed, found, bodies, pairs, pa):
+    """Write the crushed depth of pair k and what it bears to the pair."""
+    if crushed > pairs.crushed[k]:
+        pairs.dent[k] = _place(bodies.orientation, pairs.a[k], pa)
+    pairs.crushed[k], pairs.bears[k] = crushed, found.limit
+
+
+def _where_ice_crushes(otherwise, function):
+    """`function` with the settings of contact whose ice crushes."""
+    return by_type(otherwise, dict.fromkeys(CRUSHING_SETTINGS, function))
+
+
+worn = _where_ice_crushes(_nothing_worn, _worn)
+settle = _where_ice_crushes(_never_settles, _settle)
+remember = _where_ice_crushes(_keeps, _remember)
+note_crushed = _where_ice_crushes(_note_nothing, _note)

@@ -1,0 +1,275 @@
+"""The nominal area of a contact: the cross-section that two bodies would share, had one been moved into the other by some depth.
+
+Both bodies are seen along the normal of the contact. Every face of a core bounds in the contact plane what of its body lies less
+than the depth under its tip: a half plane that moves out as the depth grows, first round the dilation (its rounded edge), then down
+the face. Where both bodies recede in one direction, their depths add up there. The common part of all half planes is the area, less
+what rounded corners lack of sharp ones. It is continuous in pose and depth, knows no contact modes, and grows with the depth.
+
+Exact for a flat side on a pile, a wedge, a sphere and a face on a flat. Walls, faces almost at right angles to the contact plane,
+bound it where the outer size of the body ends: the height of a floe's side is its thickness.
+"""
+
+from math import atan2, inf, pi, sqrt
+
+from dilatedem.jit import device
+from dilatedem.numerics.vector import cross, dot, load, norm, scale, sub, tangents
+from dilatedem.state.storage import MOST_CORNERS
+
+#: rows of `scratch` with the half planes of a, by number: u and v of the outward direction, share of the edge that is rounded |
+#: where the rounding begins, tangent of the slope behind it | offset, its rate, radius of the rounding in plan; those of b stand in
+#: the next rows. Rows 0 and 1 hold the polygon that is cut: u, v, and the half plane along the side that begins there
+DIRECTION, EDGE, OFFSET = 2, 4, 6
+#: cosine of the angle to the normal below which a face looks away too far to bound anything
+AWAY = -0.5
+#: sine of that angle below which a face lies flush
+FLUSH = 1e-12
+#: cosines of that angle between which a face becomes a wall: 84 and 70 degrees
+WALL, SLOPE = 0.1, 0.35
+#: Newton steps for where two bodies that recede in one direction end: three are exact to 1e-5
+STEPS = 3
+#: sine of the angle of two directions beyond which two bodies that recede along them leave each other alone
+ASKEW = 0.2
+#: half the side of the square that is cut, in units of the floating body's reach
+WIDE = 4.0
+
+
+@device
+def _slope(tangent):
+    """Cosine and sine of an angle by its tangent, which may be infinite."""
+    if tangent == inf:
+        return 0.0, 1.0
+    cosine = 1.0 / sqrt(1.0 + tangent * tangent)
+    return cosine, tangent * cosine
+
+
+@device
+def width_at(depth, tangent, radius):
+    """How far [m] a rounded edge reaches out at a depth under its tip, and by how much more per depth; radius: of the rounding [m];
+    tangent: of the slope that follows it."""
+    if depth <= 0.0:
+        return 0.0, inf
+    cosine, sine = _slope(tangent)
+    turned = radius * (1.0 - cosine)
+    if depth < turned:
+        width = sqrt(depth * (2.0 * radius - depth))
+        return width, (radius - depth) / width
+    if cosine == 0.0:
+        return radius, 0.0
+    return radius * sine + (depth - turned) / tangent, 1.0 / tangent
+
+
+@device
+def depth_at(width, tangent, radius):
+    """The inverse of `width_at`: how deep under its tip a rounded edge is so far out, and its slope there."""
+    if width <= 0.0:
+        return 0.0, 0.0
+    cosine, sine = _slope(tangent)
+    if width < radius * sine:
+        root = sqrt(radius * radius - width * width)
+        return width * width / (radius + root), width / root
+    if cosine == 0.0:
+        return inf, inf
+    return radius * (1.0 - cosine) + (width - radius * sine) * tangent, tangent
+
+
+@device
+def _note(scratch, which, count, u, v, share, start, tangent):
+    """Note a half plane of body `which`, 0 or 1; returns the number of them."""
+    scratch[DIRECTION + which, count, 0], scratch[DIRECTION + which, count, 1], scratch[DIRECTION + which, count, 2] = u, v, share
+    scratch[EDGE + which, count, 0], scratch[EDGE + which, count, 1] = start, tangent
+    return count + 1
+
+
+@device
+def _bounds(vertex, face_normal, shapes, body, tip, normal, t1, t2, scratch, which):
+    """Note the half planes of a body; returns their number.
+
+    tip: the point of the core farthest along `normal` (unit, out of the body), from the body's centroid.
+    """
+    count, first, last = 0, shapes.face_start[body], shapes.face_start[body + 1]
+    for f in range(first, last):
+        face = load(face_normal, f)
+        cosine, sine = dot(face, normal), norm(cross(face, normal))
+        if cosine > AWAY and sine > FLUSH:
+            unit = 1.0 / sine
+            start = unit * dot(face, sub(load(vertex, shapes.loop[shapes.loop_start[f]]), tip))
+            share = min(max((cosine - WALL) * (1.0 / (SLOPE - WALL)), 0.0), 1.0)
+            count = _note(
+                scratch, which, count, unit * dot(face, t1), unit * dot(face, t2), share * share * (3.0 - 2.0 * share),
+                max(start, 0.0), sine / cosine if cosine > 0.0 else inf,
+            )  # fmt: skip
+    if last - first == 2:
+        return _flat_bounds(vertex, face_normal, shapes, first, tip, t1, t2, scratch, which, count)
+    if last == first:
+        return _round_bounds(vertex, shapes, body, tip, normal, t1, t2, scratch, which)
+    return count
+
+
+@device
+def _flat_bounds(vertex, face_normal, shapes, face, tip, t1, t2, scratch, which, count):
+    """The half planes at the edges of a flat polygon, which are walls."""
+    first, last = shapes.loop_start[face], shapes.loop_start[face + 1]
+    for i in range(first, last):
+        p, q = load(vertex, shapes.loop[i]), load(vertex, shapes.loop[i + 1 if i + 1 < last else first])
+        out = cross(sub(q, p), load(face_normal, face))
+        u, v = dot(out, t1), dot(out, t2)
+        length = sqrt(u * u + v * v)
+        if length > 0.0:
+            away = sub(p, tip)
+            start = (u * dot(away, t1) + v * dot(away, t2)) / length
+            count = _note(scratch, which, count, u / length, v / length, 0.0, max(start, 0.0), inf)
+    return count
+
+
+@device
+def _round_bounds(vertex, shapes, body, tip, normal, t1, t2, scratch, which):
+    """The half planes of a body without faces: a sphere, or a capsule, such as a pile is."""
+    first, last, count = shapes.vertex_start[body], shapes.vertex_start[body + 1] - 1, 0
+    axis = sub(load(vertex, last), load(vertex, first))
+    u, v = dot(axis, t1), dot(axis, t2)
+    length = sqrt(u * u + v * v)
+    u, v = (u / length, v / length) if length > FLUSH else (1.0, 0.0)
+    for turn in range(2):
+        u, v = -u, -v
+        count = _note(scratch, which, count, -v, u, 1.0, 0.0, inf)
+        away = sub(load(vertex, first if turn == 0 else last), tip)
+        start, fall = max(u * dot(away, t1) + v * dot(away, t2), 0.0), -dot(away, normal)
+        if fall > FLUSH * start and start > 0.0:  # down the side that slopes away from the tip
+            count = _note(scratch, which, count, u, v, 1.0, 0.0, fall / start)
+        count = _note(scratch, which, count, u, v, 1.0, start, inf)
+    return count
+
+
+@device
+def _together(cosine):
+    """0..1: how much of the one body recedes where the other does, by the cosine of their directions: at an angle it is flat
+    farther along."""
+    if cosine <= 0.0 or 1.0 - cosine * cosine >= ASKEW * ASKEW:
+        return 0.0
+    left = 1.0 - (1.0 - cosine * cosine) / (ASKEW * ASKEW)
+    return left * left
+
+
+@device
+def _missing(sine, cosine, one_body):
+    """What a rounded corner lacks of a sharp one between two half planes, by their angle, for roundings of 1 m: between the
+    tangents and the arc, or (of two edges that cross) the ellipse."""
+    if one_body:
+        return sine / (1.0 + cosine) - 0.5 * atan2(sine, cosine)
+    return (1.0 - 0.25 * pi) * sine * (1.0 + ASKEW * ASKEW) / (sine * sine + ASKEW * ASKEW)
+
+
+@device
+def _recede(scratch, which, count, others, depth, radius, their):
+    """Write where the half planes of a body stand at a depth [m], how fast they move with it, and how they are rounded in plan.
+
+    radius, their: of the dilation of this body and of the other, whose half planes are `others`. Where the other recedes in the
+    direction of a half plane, too, its offset y solves f(y) + g(y) = depth, f and g the depths of the two bodies there: from
+    beyond, by Newton's method on a convex function.
+    """
+    other = 1 - which
+    for k in range(count):
+        u, v, share = scratch[DIRECTION + which, k, 0], scratch[DIRECTION + which, k, 1], scratch[DIRECTION + which, k, 2]
+        start, tangent = scratch[EDGE + which, k, 0], scratch[EDGE + which, k, 1]
+        width, rate = radius, 0.0
+        if share > 0.0:
+            width, rate = width_at(depth, tangent, radius)
+            for _ in range(STEPS):
+                deepest, slope = 0.0, 0.0
+                for m in range(others):
+                    c = u * scratch[DIRECTION + other, m, 0] + v * scratch[DIRECTION + other, m, 1]
+                    rounded = scratch[DIRECTION + other, m, 2] * _together(c)
+                    if rounded > 0.0:
+                        g, steep = depth_at(c * (start + width) - scratch[EDGE + other, m, 0], scratch[EDGE + other, m, 1], their)
+                        if rounded * g > deepest:
+                            deepest, slope = rounded * g, rounded * steep * c
+                if deepest == 0.0 or deepest == inf:  # the other is flat there, or ends before
+                    break
+                own, rise = depth_at(width, tangent, radius)
+                rate = 1.0 / (rise + slope)
+                width = max(width - (own + deepest - depth) * rate, 0.0)
+        scratch[OFFSET + which, k, 0] = start + radius + share * (width - radius)
+        scratch[OFFSET + which, k, 1], scratch[OFFSET + which, k, 2] = share * rate, share * min(width, radius)
+
+
+@device
+def _reaches_past(polygon, count, u, v, offset):
+    """Whether some corner of a polygon lies beyond u x + v y = offset."""
+    for i in range(count):
+        if u * polygon[i, 0] + v * polygon[i, 1] > offset:
+            return True
+    return False
+
+
+@device
+def _cut(source, count, target, u, v, offset, number):
+    """The part of a polygon where u x + v y <= offset, to `target`; returns its corner count. number: of the half plane."""
+    kept = 0
+    sj = u * source[0, 0] + v * source[0, 1] - offset
+    for i in range(count):
+        j = i + 1 if i + 1 < count else 0
+        si, sj = sj, u * source[j, 0] + v * source[j, 1] - offset
+        if si <= 0.0:
+            target[kept, 0], target[kept, 1], target[kept, 2] = source[i, 0], source[i, 1], source[i, 2]
+            kept += 1
+        if (si < 0.0 and sj > 0.0) or (si > 0.0 and sj < 0.0):
+            t = si / (si - sj)
+            target[kept, 0] = source[i, 0] + t * (source[j, 0] - source[i, 0])
+            target[kept, 1] = source[i, 1] + t * (source[j, 1] - source[i, 1])
+            target[kept, 2] = number if si < 0.0 else source[i, 2]
+            kept += 1
+    return kept
+
+
+@device
+def _measure(polygon, count, scratch):
+    """Area of the polygon less what its rounded corners lack [m2], and how fast it grows as its half planes move [m]."""
+    area, rate = 0.0, 0.0
+    before = int(polygon[count - 1, 2])
+    for i in range(count):
+        j, number = i + 1 if i + 1 < count else 0, int(polygon[i, 2])
+        x, y, x1, y1 = polygon[i, 0], polygon[i, 1], polygon[j, 0], polygon[j, 1]
+        area += 0.5 * (x * y1 - x1 * y)
+        if number >= 0:
+            which, k = number // MOST_CORNERS, number % MOST_CORNERS
+            rate += scratch[OFFSET + which, k, 1] * sqrt((x1 - x) * (x1 - x) + (y1 - y) * (y1 - y))
+            rounding = scratch[OFFSET + which, k, 2]
+            if before >= 0 and before != number and rounding > 0.0:
+                last, m = before // MOST_CORNERS, before % MOST_CORNERS
+                u, v = scratch[DIRECTION + which, k, 0], scratch[DIRECTION + which, k, 1]
+                p, q = scratch[DIRECTION + last, m, 0], scratch[DIRECTION + last, m, 1]
+                sine, cosine = p * v - q * u, p * u + q * v
+                if sine > 0.0:
+                    area -= _missing(sine, cosine, which == last) * rounding * scratch[OFFSET + last, m, 2]
+        before = number
+    return max(area, 0.0), rate
+
+
+@device
+def nominal_area(vertex, face_normal, shapes, a, b, offset, normal, pa, pb, depth, scratch):
+    """Nominal area [m2] of the contact of a and b at a depth [m], and its derivative by the depth [m].
+
+    vertex (v, 3), face_normal (f, 3): turned to world directions; offset, normal, pa, pb: centroid of b, unit normal from a to b,
+    witness points on the cores, all relative to a's centroid; scratch (8, MOST_CORNERS, 3). b may be a half space.
+    """
+    t1, t2 = tangents(normal)
+    ra, rb, back, others = shapes.radius[a], shapes.radius[b], scale(-1.0, normal), 0
+    count = _bounds(vertex, face_normal, shapes, a, pa, normal, t1, t2, scratch, 0)
+    if shapes.kind[b] == 0:
+        others = _bounds(vertex, face_normal, shapes, b, sub(pb, offset), back, t1, t2, scratch, 1)
+    _recede(scratch, 0, count, others, depth, ra, rb)
+    _recede(scratch, 1, others, count, depth, rb, ra)
+    wide = WIDE * shapes.reach[a]
+    for i in range(4):
+        scratch[0, i, 0], scratch[0, i, 1] = wide if i == 0 or i == 3 else -wide, wide if i < 2 else -wide
+        scratch[0, i, 2] = -1.0
+    corners, now = 4, 0
+    for which in range(2):
+        for k in range(count if which == 0 else others):
+            u, v, out = scratch[DIRECTION + which, k, 0], scratch[DIRECTION + which, k, 1], scratch[OFFSET + which, k, 0]
+            if _reaches_past(scratch[now], corners, u, v, out):
+                corners = _cut(scratch[now], corners, scratch[1 - now], u, v, out, float(which * MOST_CORNERS + k))
+                now = 1 - now
+                if corners < 3:
+                    return 0.0, 0.0
+    return _measure(scratch[now], corners, scratch)
