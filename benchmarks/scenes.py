@@ -19,6 +19,7 @@ from benchmarks.tiling import (
     repeated_shapes,
     repeated_solids,
     repeated_structures,
+    repeated_wholes,
 )
 from dilatedem.case.schema import Case
 from dilatedem.run.simulation import PAIRS_PER_BODY, Simulation, State
@@ -106,6 +107,7 @@ def tiled(tile: Simulation, along_x: int, along_y: int, *, threads: int = 1) -> 
         hulls=repeated_hulls(tile.model.hulls, copies),
         solids=repeated_solids(tile.model.solids, floating, copies),
         structure_of=repeated_structures(tile.model.structure_of, floating, copies),
+        whole_of=repeated_wholes(tile.model.whole_of, copies),
         charts=repeated_charts(tile.model.charts, moves),
     )
     bodies: Bodies = repeated_bodies(tile.state.bodies, floating, moves)

@@ -48,6 +48,11 @@ def repeated_structures(structure_of: np.ndarray, floating: int, copies: int) ->
     return np.concatenate(parts).astype(structure_of.dtype)
 
 
+def repeated_wholes(whole_of: np.ndarray, copies: int) -> np.ndarray:
+    """The structure that each structure of `copies` scenes is a part of."""
+    return np.concatenate([np.where(whole_of >= 0, whole_of + copy * len(whole_of), -1) for copy in range(copies)])
+
+
 def repeated_charts(charts: Charts, moves: np.ndarray) -> Charts:
     """Charts of one scene per row of moves (n, 3) [m], shifted by it."""
     copies, structures = len(moves), len(charts.center)

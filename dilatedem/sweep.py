@@ -265,7 +265,7 @@ def _row(job: Job) -> dict[str, Any]:
     loads = summary.get("loads", {})
     row |= {"steps": summary.get("steps", ""), "wall_s": summary.get("wall_s", "")}
     # The structures of the case first, so that the columns stand before anything has run; walls follow.
-    for name in dict.fromkeys([structure.name for structure in job.case.structure] + list(loads)):
+    for name in dict.fromkeys([name for structure in job.case.structure for name in structure.names()] + list(loads)):
         row |= {f"{name}_{load}": loads.get(name, {}).get(load, "") for load in LOADS}
     row["residual_over_work"] = summary.get("energy", {}).get("residual_over_work", "")
     return row | {"message": job.message}

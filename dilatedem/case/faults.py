@@ -9,6 +9,7 @@ from pydantic import ValidationError
 from dilatedem.case import schema
 from dilatedem.case.lines import Path
 from dilatedem.errors import printable
+from dilatedem.structures.kinds import KINDS, SINGLE
 
 # A value longer than this is cut in messages: a hull's vertices would bury the sentence.
 LONGEST_VALUE = 60
@@ -57,12 +58,14 @@ def _faults(item: dict, data: dict) -> list[tuple[Path, str]]:
     if item["type"] == "extra_forbidden":
         return [(path, _unknown(path, data))]
     if item["type"] in ("union_tag_invalid", "union_tag_not_found"):
+        kinds = [kind.model_fields["kind"].annotation.__args__[0] for kind in (SINGLE if "part" in path else KINDS)]
         path = (*path, "kind")
         if item["type"] == "union_tag_invalid":
-            return [(path, _choice(list(schema.STRUCTURES), str(context["tag"])))]
-        return [(path, f"is missing; it {_choice(list(schema.STRUCTURES), '')}")]
-    if path in (("structure",), ("body",)) and item["type"] == "list_type":
-        return [(path, f"must be a list of tables, each under a header [[{path[0]}]]")]
+            return [(path, _choice(kinds, str(context["tag"])))]
+        return [(path, f"is missing; it {_choice(kinds, '')}")]
+    header = ".".join(step for step in path if isinstance(step, str))
+    if header in ("structure", "structure.part", "body") and item["type"] == "list_type":
+        return [(path, f"must be a list of tables, each under a header [[{header}]]")]
     whole, allowed = _mixed_key(path, data)
     if allowed is not None:
         return [(whole, allowed)]
@@ -70,9 +73,10 @@ def _faults(item: dict, data: dict) -> list[tuple[Path, str]]:
 
 
 def _without_kind(path: Path) -> Path:
-    # pydantic names the kind of a structure after its number; the case file does not.
-    if len(path) > 2 and path[0] == "structure" and path[2] in schema.STRUCTURES:
-        return (*path[:2], *path[3:])
+    # pydantic names the kind of a structure, and of its part, after the number; the case file does not.
+    for where, table in ((2, "structure"), (4, "part")):
+        if len(path) > where and path[where - 2] == table and path[where] in schema.STRUCTURES:
+            path = (*path[:where], *path[where + 1 :])
     return path
 
 

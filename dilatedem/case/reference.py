@@ -86,6 +86,8 @@ def _allowed(node: dict) -> str:
     """The values a key takes, from its JSON Schema: what the program checks is what the page says."""
     if "anyOf" in node:
         return " or ".join(dict.fromkeys(_allowed(choice) for choice in node["anyOf"]))
+    if "oneOf" in node:
+        return "table"
     if "const" in node:
         return f'`"{node["const"]}"`'
     if "enum" in node:

@@ -319,8 +319,12 @@ def table_of(path: tuple[str | int, ...], data: dict) -> tuple[type[Table], str]
         return None
     if path[0] == "body":
         return Body, str(path[2])
+    last = 4 if len(path) > 4 and path[2] == "part" else 2  # a key of a part, or of a structure
     try:
-        return STRUCTURES[data["structure"][path[1]]["kind"]], str(path[2])
+        table = data
+        for step in path[:last]:
+            table = table[step]
+        return STRUCTURES[table["kind"]], str(path[last])
     except (KeyError, IndexError, TypeError):
         return None
 

@@ -23,8 +23,24 @@ def dump(case: Case) -> str:
         if isinstance(value, Table):
             blocks.append(_table(f"[{name}]", value))
         elif isinstance(value, list):
-            blocks += [_table(f"[[{name}]]", item) for item in value]
+            blocks += _tables(name, value)
     return "\n".join(blocks)
+
+
+def _tables(name: str, tables: list[Table]) -> list[str]:
+    """Items of an array of tables, each before the arrays of tables that it holds."""
+    blocks = []
+    for table in tables:
+        blocks.append(_table(f"[[{name}]]", table))
+        for inner, items in _arrays(table).items():
+            blocks += _tables(f"{name}.{inner}", items)
+    return blocks
+
+
+def _arrays(table: Table) -> dict[str, list[Table]]:
+    """What a table holds that is no key: arrays of tables, by name."""
+    values = {name: getattr(table, name) for name in type(table).model_fields}
+    return {name: value for name, value in values.items() if isinstance(value, list) and value and isinstance(value[0], Table)}
 
 
 def digest(case: Case) -> str:
@@ -34,9 +50,10 @@ def digest(case: Case) -> str:
 
 def _table(header: str, table: Table) -> str:
     lines = [f"{header}\n"]
+    arrays = _arrays(table)
     for name, field in type(table).model_fields.items():
         value = getattr(table, name)
-        if value is not None:
+        if value is not None and name not in arrays:
             lines.append(_line(name, value, field.json_schema_extra["unit"]))
     return "".join(lines)
 

@@ -34,11 +34,19 @@ KEYS: dict[str, tuple[str, str]] = {
     "structure.center": ("centre", "m"),
     "structure.radius": ("radius", "m"),
     "structure.size": ("length along its axes", "m"),
-    "structure.rotation": ("rotation", "°"),
+    "structure.rotation": ("rotation (of a box in °, of a mesh in rad)", ""),
     "structure.bottom": ("height of the lower side", "m"),
     "structure.top": ("height of the upper side", "m"),
     "structure.dilated_radius": ("radius of its edges", "m"),
     "structure.point": ("point of the plane", "m"),
+    "structure.from": ("one end of the axis", "m"),
+    "structure.to": ("other end of the axis", "m"),
+    "structure.outline": ("outline at the water level", "m"),
+    "structure.slope": ("slope of the sides", "°"),
+    "structure.file": ("surface mesh", ""),
+    "structure.sha256": ("SHA-256 of the surface mesh", ""),
+    "structure.scale": ("metres per unit of the mesh", ""),
+    "structure.position": ("place of the mesh's origin", "m"),
     "structure.elastic_modulus": ("elastic modulus of the structure", "Pa"),
     "structure.poisson_ratio": ("Poisson ratio of the structure", ""),
     "structure.friction": ("friction coefficient of the structure", ""),
@@ -64,6 +72,8 @@ def describe_key(key: str) -> tuple[str, str]:
         return KEYS[key]
     parts = key.split(".")
     if parts[0] in ("structure", "body") and len(parts) > 2 and parts[1].isdigit():
+        if parts[2] == "part" and len(parts) > 4:
+            parts = [parts[0], *parts[3:]]  # a part of a structure has the keys of one
         what, unit = describe_key(".".join([parts[0], *parts[2:]]))
         return (what if what != f"{parts[0]}.{parts[2]}" else key), unit
     if parts[-1].isdigit() and ".".join(parts[:-1]) in KEYS:

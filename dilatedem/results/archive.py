@@ -93,26 +93,26 @@ def _read(archive: h5py.File) -> Archive:
     found = Archive()
     terms = (archive.attrs.get(name, ()) for name in ("energy_terms", "energy_labels"))
     found.energy_labels = dict(zip(*(map(as_text, names) for names in terms), strict=True))
-    for name, group in map_groups(archive.get("load_map", {})):
+    for name, group in groups_with(archive.get("load_map", {}), "impulse_Ns"):
         found.load_maps[name] = read_load_map(name, group)
     for pair, group in archive.get("contacts", {}).items():
         if isinstance(group, h5py.Group):
             found.contacts[pair] = read_contacts(archive["contacts"], group)
     if "floes" in archive:
         found.floes = read_floes(archive["floes"])
-    for name, group in archive.get("structures", {}).items():
+    for name, group in groups_with(archive.get("structures", {}), "outline_m"):
         outline = require_array(group["outline_m"][()], (None, 2), f"the outline of {name}")
         found.outlines[name] = PlanOutline(outline, bool(group.attrs["bounded"]))
     return found
 
 
-def map_groups(parent: h5py.Group, prefix: str = "") -> Iterator[tuple[str, h5py.Group]]:
-    """Names and groups of the load maps; that of a structure's part is called `structure/part`."""
+def groups_with(parent: h5py.Group, dataset: str, prefix: str = "") -> Iterator[tuple[str, h5py.Group]]:
+    """Names and groups that have a dataset of this name; that of a structure's part is called `structure/part`."""
     for name, group in parent.items():
         if isinstance(group, h5py.Group):
-            if "impulse_Ns" in group:
+            if dataset in group:
                 yield f"{prefix}{name}", group
-            yield from map_groups(group, f"{prefix}{name}/")
+            yield from groups_with(group, dataset, f"{prefix}{name}/")
 
 
 def read_load_map(name: str, group: h5py.Group) -> LoadMap:

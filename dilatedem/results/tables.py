@@ -95,11 +95,16 @@ def read_frame(path: Path) -> pandas.DataFrame:
 
 
 def split_by_structure(table: Table, case: dict[str, Any]) -> dict[str, Table]:
-    """Rows of forces.csv by the structure they belong to, structures in the order of the case."""
+    """Rows of forces.csv by the structure they belong to, structures in the order of the case, each before its parts."""
     if not row_count(table) or "structure" not in table:
         return {}
     label = table["structure"]
-    known = [str(structure.get("name")) for structure in case.get("structure", [])]
+    known = [name for structure in case.get("structure", []) for name in _names(structure)]
     names = [name for name in known if name in label] + sorted(set(label) - set(known))
     numeric = [name for name in table if name != "structure"]
     return {name: {column: table[column][label == name] for column in numeric} for name in names}
+
+
+def _names(structure: dict[str, Any]) -> list[str]:
+    """Of a structure of a case and of its parts."""
+    return [str(structure.get("name")), *(f"{structure.get('name')}/{part.get('name')}" for part in structure.get("part", []))]

@@ -5,9 +5,11 @@ import math
 import numpy as np
 
 from dilatedem.case.schema import Case
+from dilatedem.scene.overlaps import structures_in_each_other
 from dilatedem.scene.place import PlacedStructure, Scene, periodic_axes
 from dilatedem.state.bodies import Bodies
 from dilatedem.state.model import Model
+from dilatedem.structures.kind import Part
 
 #: share of the critical step above which loads are too far off: at 0.6 peaks overshoot by 5 to 23 % (docs/theory.md, time step)
 LARGEST_FRACTION = 0.5
@@ -17,12 +19,14 @@ SHORT_WINDOW = 0.5
 SPREAD = 1.0
 #: m/s below which nothing drifts
 STILL = 1e-9
+#: boundaries that no ice passes, and how many floes far it still sticks out through them
+PASSED_BY = {"wall": 0.0, "outflow": 1.0}
 
 
 def advice(case: Case, scene: Scene, model: Model, bodies: Bodies, *, share: float) -> list[str]:
     """Sentences about a simulation at t = 0; share: time step over the critical one."""
     found = [_about_step(share), _about_window(case, share), _about_thickness(case, scene)]
-    found += _about_reach(case, scene, model, bodies)
+    found += _about_structures(case, scene, model, bodies)
     return [sentence for sentence in found if sentence]
 
 
@@ -64,34 +68,53 @@ def _about_thickness(case: Case, scene: Scene) -> str:
     return f"{name}{more}: {thickness:.3g} m thick, {width:.3g} m wide: ice thicker than wide tips over; check thickness and size"
 
 
-def _about_reach(case: Case, scene: Scene, model: Model, bodies: Bodies) -> list[str]:
-    """Structures that no ice comes to, as long as water carries it."""
-    bounded = [structure for structure in scene.structures if not any(part.is_half_space for part in structure.parts)]
+def _about_structures(case: Case, scene: Scene, model: Model, bodies: Bodies) -> list[str]:
+    """Structures that stand in each other, beyond sides that no ice passes, or where none comes to as long as water carries it."""
+    found = [
+        f'structures "{first}" and "{second}" lie in each other, by {depth:.3g} m; make them parts of one structure if they are one'
+        for first, second, depth in structures_in_each_other(scene, model, bodies)
+    ]
+    standing = [(structure, parts) for structure, parts in scene.standing() if not any(part.is_half_space for part in parts)]
+    why = {structure.name: _why_beyond(case, model, parts) for structure, parts in standing}
     ice = _Ice(case, scene, model, bodies)
-    if not (case.water.enabled and bounded and len(ice.place)):
-        return []
-    why = {structure.name: ice.why_not_at(structure, model) for structure in bounded}
+    if case.water.enabled and len(ice.place):
+        why = {structure.name: why[structure.name] or ice.why_not_at(structure, parts) for structure, parts in standing}
     missed = {name: sentence for name, sentence in why.items() if sentence}
-    if len(missed) == len(scene.structures) > 1 and len(set(missed.values())) == 1:
-        return [f"no ice can reach any structure: {next(iter(missed.values()))}"]
-    return [f'no ice can reach structure "{name}": {sentence}' for name, sentence in missed.items()]
+    if len(missed) == len(scene.standing()) > 1 and len(set(missed.values())) == 1:
+        return [*found, f"no ice can reach any structure: {next(iter(missed.values()))}"]
+    return [*found, *(f'no ice can reach structure "{name}": {sentence}' for name, sentence in missed.items())]
+
+
+def _why_beyond(case: Case, model: Model, parts: list[Part]) -> str:
+    """How far a structure stands beyond a side which no ice passes, in words; empty for any other, and for a body that is held."""
+    floe = 2.0 * float(model.shapes.reach[: model.floating].max())
+    for axis, boundary in enumerate((case.domain.x_boundary, case.domain.y_boundary)):
+        if not parts or boundary not in PASSED_BY:
+            continue
+        half = 0.5 * case.domain.size[axis]
+        gap = min(abs(float(part.position[axis])) - part.plan_reach for part in parts) - half
+        if gap > PASSED_BY[boundary] * floe:
+            return f'it stands {gap:.3g} m beyond a side of the domain that is "{boundary}"'
+    return ""
 
 
 class _Ice:
-    """Bodies that float freely: place (n, 2), reach (n,) [m] and velocity (n, 2) [m/s] at t = 0, and where they drift."""
+    """Bodies that float freely: place (n, 2), height, reach (n,) [m] and velocity (n, 2) [m/s] at t = 0, and where they drift."""
 
     def __init__(self, case: Case, scene: Scene, model: Model, bodies: Bodies):
         free = np.flatnonzero(model.solids.inverse_mass[: scene.count] > 0.0)
         self.case, self.scene = case, scene
         self.place, self.velocity = bodies.position[free, :2], bodies.velocity[free, :2]
-        self.reach = model.shapes.reach[free]
+        self.height, self.reach, self.every_reach = bodies.position[free, 2], model.shapes.reach[free], model.shapes.reach
         self.current = np.array(case.water.velocity if case.water.enabled else (0.0, 0.0))
         self.wind = np.array(case.wind.velocity)
         self.periodic = np.array(periodic_axes(case))
 
-    def why_not_at(self, structure: PlacedStructure, model: Model) -> str:
-        """Why none of it comes to a structure, in words; empty where some may."""
-        place, reach = self._extent(structure, model)
+    def why_not_at(self, structure: PlacedStructure, parts: list[Part]) -> str:
+        """Why none of it comes to a structure of these bodies, in words; empty where some may."""
+        if parts and (sentence := self._why_not_over(parts)):
+            return sentence
+        place, reach = self._extent(structure, parts)
         size = np.where(self.periodic, self.case.domain.size, np.inf)
         offset = place - self.place
         offset -= np.where(self.periodic, np.round(offset / size) * np.where(self.periodic, size, 0.0), 0.0)
@@ -105,13 +128,23 @@ class _Ice:
             return f"it lies {gap:.3g} m from the nearest floe, and {far}"
         return self._why_not_along(offset, reach)
 
-    def _extent(self, structure: PlacedStructure, model: Model) -> tuple[np.ndarray, float]:
+    def _why_not_over(self, parts: list[Part]) -> str:
+        """As `why_not_at`, by the heights of a structure and of the ice, however it turns."""
+        heights = [part.heights for part in parts]
+        low, high = min(low for low, _ in heights), max(high for _, high in heights)
+        lowest, highest = float((self.height - self.reach).min()), float((self.height + self.reach).max())
+        if low > highest:
+            return f"it begins at z = {low:.3g} m, and the ice reaches up to {highest:.3g} m, even on edge"
+        if high < lowest:
+            return f"it ends at z = {high:.3g} m, and the ice reaches down to {lowest:.3g} m, even on edge"
+        return ""
+
+    def _extent(self, structure: PlacedStructure, parts: list[Part]) -> tuple[np.ndarray, float]:
         """Centre in plan (2,) and radius [m] of a circle that holds a structure."""
-        if not structure.parts:  # a body that is held
-            number = structure.about.number
-            return structure.about.place[:2], float(model.shapes.reach[number])
-        centre = np.mean([part.position[:2] for part in structure.parts], axis=0)
-        return centre, max(float(np.hypot(*(part.position[:2] - centre))) + part.plan_reach for part in structure.parts)
+        if not parts:  # a body that is held
+            return structure.place[:2], float(self.every_reach[structure.about.number])
+        centre = np.mean([part.position[:2] for part in parts], axis=0)
+        return centre, max(float(np.hypot(*(part.position[:2] - centre))) + part.plan_reach for part in parts)
 
     def _why_not_along(self, offset: np.ndarray, reach: float) -> str:
         """As `why_not_at`, by the direction in which all ice drifts, if there is one; offset (n, 2) [m]: to the structure."""

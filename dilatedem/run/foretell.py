@@ -22,7 +22,7 @@ def check(case: Case) -> dict:
         "floes": len(areas),
         "explicit bodies": scene.explicit,
         "floes left out at structures": scene.field.left_out,
-        "structures": len(scene.structures),
+        "structures": len(scene.standing()),
         "mass, t": simulation.model.solids.mass[:floating].sum() / 1e3,
         "critical step, s": simulation.critical,
         "step, s": simulation.dt,
@@ -33,4 +33,6 @@ def check(case: Case) -> dict:
     }
     if len(areas):
         facts |= {"concentration": scene.field.concentration, "floe size, m": float(np.sqrt(areas.mean()))}
+    for structure in scene.structures:
+        facts |= {f'structure "{structure.name}"': sentence for sentence in structure.about.remarks()}
     return facts | {"warnings": simulation.advice()}

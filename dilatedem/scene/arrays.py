@@ -36,6 +36,7 @@ def build_model(case: Case, scene: Scene) -> Model:
     return Model(
         floating=scene.count,
         structure_of=np.concatenate([_held(scene), _numbers(scene)]).astype(np.int64),
+        whole_of=_wholes(scene),
         shapes=shapes,
         hulls=pack_hulls(scene.shapes, scene.order),
         solids=_solids(case, scene),
@@ -53,6 +54,12 @@ def _parts(scene: Scene) -> list[Part]:
 def _numbers(scene: Scene) -> np.ndarray:
     """The structure that each part belongs to, by number."""
     return np.repeat(np.arange(len(scene.structures)), [len(structure.parts) for structure in scene.structures])
+
+
+def _wholes(scene: Scene) -> np.ndarray:
+    """The structure that each structure is a part of, by number; -1 = none."""
+    number = {id(structure): s for s, structure in enumerate(scene.structures)}
+    return np.array([number[id(structure.whole)] if structure.whole else -1 for structure in scene.structures], np.int64)
 
 
 def _held(scene: Scene) -> np.ndarray:
@@ -154,12 +161,15 @@ def _pack_charts(case: Case, scene: Scene) -> Charts:
     for s in np.flatnonzero(mapped):
         chart = charts[s]
         along[s] = chart.along
+        origin[s] = scene.structures[s].about.place if chart.origin is None else chart.origin
         if chart.along == Along.LINE:
-            origin[s], axis[s], length[s] = chart.origin, chart.axis, chart.half
+            axis[s], length[s] = chart.axis, chart.half
+        elif chart.along == Along.ANGLE:
+            axis[s] = [*chart.lean, 1.0]
         elif chart.along == Along.OUTLINE:
             length[s] = perimeter(chart.outline)
     return Charts(
-        center=np.reshape([structure.about.place for structure in scene.structures], (-1, 3)),
+        center=np.reshape([structure.place for structure in scene.structures], (-1, 3)),
         map=np.where(mapped, np.cumsum(mapped) - 1, -1),
         along=along,
         origin=origin,

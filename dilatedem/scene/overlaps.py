@@ -151,6 +151,31 @@ def _near(here: _Place) -> Iterator[tuple[int, int, np.ndarray]]:
             yield (i, j, np.array([*shift, 0.0])) if i < j else (j, i, -np.array([*shift, 0.0]))
 
 
+def structures_in_each_other(scene: Scene, model: Model, bodies: Bodies) -> list[tuple[str, str, float]]:
+    """Names of two structures, parts of one apart, whose cores are in each other's dilations, and the depth [m].
+
+    Half spaces are left out: what stands on a sea bed or in a wall stands in it.
+    """
+    wholes = [structure.whole or structure for structure in scene.structures]
+    names = [wholes[s].name for s in model.structure_of[scene.count :]]
+    if len(set(names)) < 2:
+        return []
+    here, radius = _Place(scene, model, bodies), model.shapes.radius
+    own = np.arange(scene.count, here.count)
+    low, high = here.low[own], here.high[own]
+    boxes = shapely.box(low[:, 0], low[:, 1], high[:, 0], high[:, 1])
+    deepest: dict[tuple[str, str], float] = {}
+    for i, j in shapely.STRtree(boxes).query(boxes).T:
+        if i >= j or names[i] == names[j] or low[i, 2] > high[j, 2] or low[j, 2] > high[i, 2]:
+            continue
+        a, b = own[i], own[j]
+        depth = radius[a] + radius[b] - core_distance(here.core(a, np.zeros(3)), here.core(b, np.zeros(3)))
+        if depth > TOUCHING * min(radius[a], radius[b]):
+            pair = (names[i], names[j])
+            deepest[pair] = max(depth, deepest.get(pair, 0.0))
+    return [(*pair, float(depth)) for pair, depth in deepest.items()]
+
+
 def _sentence(overlap: Overlap, scene: Scene, model: Model, bodies: Bodies) -> str:
     first, second = (body_name(i, scene, model, bodies, np.arange(model.floating)) for i in (overlap.a, overlap.b))
     return f"  {first} and {second}, by {overlap.depth:.3g} m{' across the periodic seam' if overlap.seam else ''}"

@@ -1,6 +1,9 @@
 """Who stands where at t = 0: explicit bodies, generated floes, structures."""
 
+from __future__ import annotations
+
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -19,7 +22,7 @@ from dilatedem.numerics.plain import turned
 from dilatedem.scene.room import generated_floes
 from dilatedem.state.storage import MOST_CORNERS
 from dilatedem.structures.held import HeldBody
-from dilatedem.structures.kind import Chart, Part, Structure
+from dilatedem.structures.kind import Chart, Part, Structure, member_name
 from dilatedem.structures.plane import Plane
 
 #: corners of a face after clipping by another: both counts together have to fit into the workspace
@@ -46,15 +49,21 @@ class PlacedBody:
 
 @dataclass(frozen=True, eq=False)
 class PlacedStructure:
-    """A structure, its bodies, and how its load map is laid out."""
+    """A structure, its bodies, how its load map is laid out, and the structure that it is a part of, if there is one."""
 
     about: Structure | HeldBody
     parts: list[Part]
     chart: Chart | None
+    whole: PlacedStructure | None = None
 
     @property
     def name(self) -> str:
-        return self.about.name
+        return member_name(self.whole.name, self.about.name) if self.whole else self.about.name
+
+    @property
+    def place(self) -> np.ndarray:
+        """(3,) [m] the point about which its moments are stated: of all parts of a structure the same."""
+        return self.whole.place if self.whole else self.about.place
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,6 +88,14 @@ class Scene:
     @property
     def count(self) -> int:
         return len(self.order)
+
+    def standing(self) -> list[tuple[PlacedStructure, list[Part]]]:
+        """The structures that are no parts of others, each with all bodies of it and of its parts."""
+        found = {id(structure): (structure, list(structure.parts)) for structure in self.structures if structure.whole is None}
+        for structure in self.structures:
+            if structure.whole is not None:
+                found[id(structure.whole)][1].extend(structure.parts)
+        return list(found.values())
 
     def volume(self) -> np.ndarray:
         """(n,) of the dilated bodies [m3]."""
@@ -167,11 +184,21 @@ def _structures(case: Case) -> list[PlacedStructure]:
     """The structures of a case and its walls with their bodies, those of half spaces last. Raises CaseError that names one."""
     placed, extent = [], math.hypot(*case.domain.size)
     for number, structure in enumerate([*case.structure, *_walls(case)]):
-        try:
-            placed.append(PlacedStructure(structure, structure.parts(), structure.chart(extent)))
-        except ValueError as fault:
-            raise CaseError(f"structure.{number}: {fault}") from fault
+        placed += _placed(structure, extent, f"structure.{number}")
     return sorted(placed, key=lambda structure: any(part.is_half_space for part in structure.parts))
+
+
+def _placed(structure: Structure, extent: float, where: str, whole: PlacedStructure | None = None) -> Iterator[PlacedStructure]:
+    """A structure, then its members. Raises CaseError, which says where in the case the fault is."""
+    try:
+        placed = PlacedStructure(structure, structure.parts(), structure.chart(extent), whole)
+        if (most := max((_most_corners(part.shape) for part in placed.parts if part.shape), default=0)) > MOST_FACE_CORNERS:
+            raise ValueError(f"a face has {most} corners, and at most {MOST_FACE_CORNERS} can be handled; draw it with fewer")
+    except ValueError as fault:
+        raise CaseError(f"{where}: {fault}") from fault
+    yield placed
+    for number, member in enumerate(structure.members):
+        yield from _placed(member, extent, f"{where}.part.{number}", placed)
 
 
 def _held(case: Case, explicit: list[PlacedBody]) -> list[PlacedStructure]:
@@ -207,8 +234,7 @@ def _explicit_body(case: Case, number: int, body: Body) -> PlacedBody:
             position = np.zeros(3)
     except ValueError as fault:
         raise CaseError(f"body.{number}: {fault}") from fault
-    most = max((len(face) for face in shape.core.faces), default=0)
-    if most > MOST_FACE_CORNERS:
+    if (most := _most_corners(shape)) > MOST_FACE_CORNERS:
         raise CaseError(f"body.{number}: a face has {most} corners, and at most {MOST_FACE_CORNERS} can be handled{_way_on(body)}")
     if body.position is not None:
         position[: len(body.position)] = body.position
@@ -218,6 +244,11 @@ def _explicit_body(case: Case, number: int, body: Body) -> PlacedBody:
     seen = convex_hull(corners * [1.0, 1.0, 0.0]).vertices[:, :2]
     seen = seen if plan.area(seen) > 0.0 else seen[::-1]
     return PlacedBody(shape, position, orientation, seen, float(plan.area(seen)), core[:, :2])
+
+
+def _most_corners(shape: BodyShape) -> int:
+    """Corners of its face that has most."""
+    return max((len(face) for face in shape.core.faces), default=0)
 
 
 def _corners(body: Body) -> np.ndarray:

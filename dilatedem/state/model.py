@@ -13,6 +13,7 @@ from dilatedem.state.setting import ContactSetting, Surroundings
 class Model(NamedTuple):
     floating: int  # bodies that are no structures; those of structures are numbered after them
     structure_of: np.ndarray  # (n,) the structure that a body belongs to, -1 = none
+    whole_of: np.ndarray  # (s,) the structure that a structure is a part of, -1 = none
     shapes: Shapes
     hulls: Hulls
     solids: Solids

@@ -51,7 +51,7 @@ def advance(team, timer, model, bodies, pairs, spare, cells, workspace, tally, l
                 workspace,
             )  # fmt: skip
             lap(timer, FLOAT)
-            load_structures(at_structure, dt, m.structure_of, m.charts, bodies, pairs, workspace, loads)
+            load_structures(at_structure, dt, m.structure_of, m.whole_of, m.charts, bodies, pairs, workspace, loads)
             record_loads(loads)
             end_window(clock.step[0], loads, windows)
             if too_deep(tally, pairs, clock):

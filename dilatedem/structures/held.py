@@ -33,6 +33,9 @@ class HeldBody:
     def place(self) -> np.ndarray:
         return np.array([*self.position[:2], 0.0])
 
+    def remarks(self) -> list[str]:
+        return []
+
     def parts(self) -> list[Part]:
         return []
 

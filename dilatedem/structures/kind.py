@@ -13,6 +13,7 @@ Besides, the point about which its moments are stated (`place`).
 from __future__ import annotations
 
 from abc import abstractmethod
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -23,8 +24,8 @@ from dilatedem.geometry.outline import perimeter
 from dilatedem.geometry.polyhedron import Polyhedron
 from dilatedem.geometry.shapes import BodyShape
 from dilatedem.keys import Table, key
-from dilatedem.numerics.frames import quaternion_from_rotation_vector
-from dilatedem.numerics.plain import sine_cosine
+from dilatedem.numerics.frames import matrix_from_quaternion, quaternion_from_rotation_vector
+from dilatedem.numerics.plain import sine_cosine, turned
 from dilatedem.state.charts import Along
 
 #: heights between which structures that reach farther than any floe are drawn, m
@@ -54,13 +55,20 @@ class Part:
     def is_half_space(self) -> bool:
         return self.normal is not None
 
+    @property
+    def heights(self) -> tuple[float, float]:
+        """Of a core's lowest and of its highest point, dilation included [m]."""
+        height = turned(matrix_from_quaternion(self.orientation), self.shape.core.vertices)[:, 2] + self.position[2]
+        return float(height.min()) - self.shape.radius, float(height.max()) + self.shape.radius
+
 
 @dataclass(frozen=True, eq=False)
 class Chart:
     """How places on a structure are laid out flat: one coordinate around or along it, and the height over the water.
 
     along: what the first coordinate runs along; label: what that coordinate is, for an axis; zero: where its zero lies, in words.
-    ANGLE: radius [m] of the surface that it runs around, for loads per metre of it.
+    ANGLE: radius [m] of the surface that it runs around, for loads per metre of it; lean (2,): what the axis gains in x and y per
+    metre of height, none if it is upright.
     LINE: origin (3,) [m], axis (3,) its unit vector, half [m]: it runs from -half to half.
     OUTLINE: outline (k, 2) [m], counter-clockwise, relative to the structure's centre; it runs from 0 to its length.
     """
@@ -71,6 +79,7 @@ class Chart:
     radius: float | None = None
     origin: np.ndarray | None = None
     axis: np.ndarray | None = None
+    lean: tuple[float, float] = (0.0, 0.0)
     half: float = 0.0
     outline: np.ndarray | None = None
 
@@ -103,9 +112,22 @@ class Structure(Table):
     """A table [[structure]] of a case file, and the six answers."""
 
     @property
+    def members(self) -> Sequence[Structure]:
+        """The structures that it is made of, each with answers and a record of its own; none where it is one by itself."""
+        return ()
+
+    def names(self) -> list[str]:
+        """Under which its loads are recorded: its own, then those of its members."""
+        return [self.name, *(member_name(self.name, member.name) for member in self.members)]
+
+    @property
     @abstractmethod
     def place(self) -> np.ndarray:
         """(3,) [m] the centre at z = 0 about which moments are stated."""
+
+    def remarks(self) -> list[str]:
+        """What `dilatedem check` says of it, a sentence each."""
+        return []
 
     @abstractmethod
     def parts(self) -> list[Part]:
@@ -116,8 +138,8 @@ class Structure(Table):
         """Where in plan no floe of this thickness [m] can start."""
 
     @abstractmethod
-    def chart(self, extent: float) -> Chart:
-        """How its load map is laid out, in a domain of this diagonal [m]."""
+    def chart(self, extent: float) -> Chart | None:
+        """How its load map is laid out, in a domain of this diagonal [m]; None where its members have the maps."""
 
     @abstractmethod
     def drawing(self, extent: float) -> list[Polyhedron]:
@@ -126,6 +148,11 @@ class Structure(Table):
     @abstractmethod
     def sketch(self, extent: float) -> Sketch | None:
         """It in plan, in a domain of this diagonal [m]; None where it has no outline at the water level."""
+
+
+def member_name(whole: str, member: str) -> str:
+    """What a structure is called in all output that is a member of another."""
+    return f"{whole}/{member}"
 
 
 def name_key(default: str) -> Any:

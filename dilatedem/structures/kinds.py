@@ -1,11 +1,21 @@
-"""The kinds of structures there are. A new kind is a file beside this one, and its class in this list."""
+"""The kinds of structures there are. A new kind is a file beside this one, and its class in the list SINGLE."""
+
+from typing import Annotated, Union
+
+from pydantic import Field
 
 from dilatedem.structures.box import Box
+from dilatedem.structures.brace import Brace
 from dilatedem.structures.kind import Structure
+from dilatedem.structures.parts import Parts
 from dilatedem.structures.pile import Pile
 from dilatedem.structures.plane import Plane
 
-KINDS: tuple[type[Structure], ...] = (Pile, Plane, Box)
+#: what a part of a structure may be
+SINGLE: tuple[type[Structure], ...] = (Pile, Plane, Box, Brace)
+KINDS: tuple[type[Structure], ...] = (*SINGLE, Parts)
+
+Parts.model_rebuild(_types_namespace={"Single": Annotated[Union[SINGLE], Field(discriminator="kind")]})  # noqa: UP007
 
 #: class by what stands under `kind` in a case file
 BY_NAME: dict[str, type[Structure]] = {kind.model_fields["kind"].annotation.__args__[0]: kind for kind in KINDS}

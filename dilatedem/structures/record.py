@@ -11,8 +11,8 @@ ANGLE, LINE = int(Along.ANGLE), int(Along.LINE)
 
 
 @item
-def load_structures(count, dt, structure_of, charts, bodies, pairs, workspace, loads):
-    """Loads on all structures at this step, from the awake pairs with one, `count` of them."""
+def load_structures(count, dt, structure_of, whole_of, charts, bodies, pairs, workspace, loads):
+    """Loads on all structures at this step, from the awake pairs with one, `count` of them; then wholes by their parts."""
     for s in range(len(loads.step_contacts)):
         loads.step_contacts[s] = 0
         for m in range(6):
@@ -28,6 +28,7 @@ def load_structures(count, dt, structure_of, charts, bodies, pairs, workspace, l
         if structure_of[a] >= 0:
             force, couple = scale(-1.0, force), scale(-1.0, couple)
             _load_structure(structure_of[a], load(bodies.position, a), load(pairs.point, k), force, couple, impulse, charts, loads)
+    _load_wholes(whole_of, loads)
 
 
 @item
@@ -35,28 +36,38 @@ def _load_structure(s, position, arm, force, couple, impulse, charts, loads):
     """Add a contact to the load and the map of structure s, at `arm` from one of its bodies, which is at `position`."""
     center = load(charts.center, s)
     # moments are about the structure's centre
-    lever = add(arm, sub(position, center))
-    moment = add(couple, cross(lever, force))
+    moment = add(couple, cross(add(arm, sub(position, center)), force))
     loads.step_contacts[s] += 1
     for m in range(3):
         loads.step_load[s, m] += force[m]
         loads.step_load[s, 3 + m] += moment[m]
     if charts.map[s] < 0:
         return
-    height = position[2] + arm[2]
+    height, axis = position[2] + arm[2], load(charts.axis, s)
+    x, y, z = add(arm, sub(position, load(charts.origin, s)))
     along = charts.along[s]
     if along == LINE:
-        point = sub((position[0] + arm[0], position[1] + arm[1], height), load(charts.origin, s))
-        place = (point[0] * charts.axis[s, 0] + point[1] * charts.axis[s, 1]) / charts.length[s]
+        place = (x * axis[0] + y * axis[1]) / charts.length[s]
     elif along == ANGLE:
-        place = atan2(lever[1], lever[0]) / pi
+        place = atan2(y - axis[1] * z, x - axis[0] * z) / pi
     else:
         first, last = charts.outline_start[s], charts.outline_start[s + 1]
-        place = 2.0 * place_on_outline(charts.outline, first, last, lever[0], lever[1]) / charts.length[s] - 1.0
+        place = 2.0 * place_on_outline(charts.outline, first, last, x, y) / charts.length[s] - 1.0
     low, high = charts.heights[s, 0], charts.heights[s, 1]
     i = min(max(int((place + 1.0) * 0.5 * PLACE_BINS), 0), PLACE_BINS - 1)
     j = min(max(int((height - low) / (high - low) * HEIGHT_BINS), 0), HEIGHT_BINS - 1)
     loads.impulse_map[charts.map[s], i, j] += impulse
+
+
+@item
+def _load_wholes(whole_of, loads):
+    """Add the load of each part to that of the structure that it is a part of."""
+    for s in range(len(whole_of)):
+        whole = whole_of[s]
+        if whole >= 0:
+            loads.step_contacts[whole] += loads.step_contacts[s]
+            for m in range(6):
+                loads.step_load[whole, m] += loads.step_load[s, m]
 
 
 @device

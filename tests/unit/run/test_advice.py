@@ -160,3 +160,34 @@ def test_check_gives_warnings_to_python():
 
     facts = check(case_from({**FIELD, "structure": [PILE], "ice": {"thickness": 8.0}}, {}))
     assert len(facts["warnings"]) == 1 and facts["memory, MB, about"] > 100.0
+
+
+def test_structures_in_each_other_are_named_but_not_the_parts_of_one():
+    brace = {"kind": "brace", "name": "brace", "from": [6.0, 0.0, -3.0], "to": [10.0, 0.0, 1.0], "radius": 0.3}
+    (found,) = advice(structure=[PILE, brace])
+    assert found == 'structures "pile" and "brace" lie in each other, by 2.3 m; make them parts of one structure if they are one'
+    assert advice(structure=[{"kind": "parts", "name": "both", "part": [PILE, brace]}]) == []
+    assert advice(structure=[PILE, brace | {"from": [4.0, 0.0, -3.0], "to": [7.0, 0.0, 1.0]}]) == []
+
+
+@pytest.mark.parametrize(
+    ("start", "end", "expected"),
+    [
+        ([8.0, 0.0, 9.0], [9.0, 0.0, 15.0], "it begins at z = 8.5 m, and the ice reaches up to "),
+        ([8.0, 0.0, -40.0], [9.0, 0.0, -9.0], "it ends at z = -8.5 m, and the ice reaches down to "),
+        ([8.0, 0.0, -40.0], [9.0, 0.0, -1.5], None),  # a floe on edge comes there
+    ],
+)
+def test_structures_above_and_below_all_ice(start, end, expected):
+    brace = {"kind": "brace", "name": "brace", "from": start, "to": end, "radius": 0.5}
+    found = advice(structure=[brace])
+    assert found == [] if expected is None else found[0].startswith(f'no ice can reach structure "brace": {expected}')
+    assert advice(structure=[{"kind": "parts", "name": "both", "part": [PILE, brace]}]) == []
+
+
+def test_structures_beyond_sides_that_no_ice_passes():
+    beyond = PILE | {"center": [60.0, 0.0]}
+    domain = {"size": [50.0, 50.0], "x_boundary": "outflow"}
+    (found,) = advice(structure=[beyond], domain=domain, time={"duration": 300.0})
+    assert found == 'no ice can reach structure "pile": it stands 33 m beyond a side of the domain that is "outflow"'
+    assert advice(structure=[PILE | {"center": [27.5, 0.0]}], domain=domain, time={"duration": 300.0}) == []
