@@ -3,12 +3,13 @@
 Values are taken as they are typed in TOML: no text for a number, no number for a switch, nothing infinite.
 """
 
+import os
 from collections.abc import Iterator
 from functools import cache
 from typing import Annotated, Any, Literal, NamedTuple, get_args
 
 from annotated_types import Ge, Gt
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, model_validator
+from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, ValidationInfo, model_validator
 from pydantic.json_schema import GenerateJsonSchema
 from pydantic_core import PydanticCustomError
 
@@ -61,6 +62,14 @@ def _as_tuple(count: int) -> BeforeValidator:
     return BeforeValidator(convert)
 
 
+def _beside_case(path: str, about: ValidationInfo) -> str:
+    """The full path of a file that is there, from the folder of the case file, which the context of validation names."""
+    full = os.path.abspath(os.path.join((about.context or {}).get("folder", ""), path))
+    if not os.path.isfile(full):
+        raise PydanticCustomError("allowed", "there is no such file: {full}", {"full": full})
+    return full
+
+
 Positive = Annotated[float, Field(gt=0)]
 NonNegative = Annotated[float, Field(ge=0)]
 PoissonRatio = Annotated[float, Field(ge=0, lt=0.5)]
@@ -68,6 +77,8 @@ Friction = Annotated[float, Field(ge=0, le=1000)]
 Vector2 = Annotated[tuple[float, float], _as_tuple(2)]
 Vector3 = Annotated[tuple[float, float, float], _as_tuple(3)]
 Size2 = Annotated[tuple[Positive, Positive], _as_tuple(2)]
+# Path of a file; once the case is read, in full.
+File = Annotated[str, AfterValidator(_beside_case)]
 Boundary = Literal["open", "periodic", "wall", "outflow"]
 # A name serves as an HDF5 group, a CSV field and a step of a dotted key: no / or comma or dot, and no number.
 # \w is a letter or digit of any alphabet, [^\W\d] the same without the digits.

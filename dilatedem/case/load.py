@@ -112,7 +112,7 @@ def _validated(source: Source, data: dict, laid_over: Sequence[Override]) -> Cas
     written = [(apply(data, override), override) for override in laid_over]
     _accepted(source, data, written)
     try:
-        return Case.model_validate(data)
+        return Case.model_validate(data, context={"folder": FilePath(source.name).parent})
     except ValidationError as error:
         lines = line_numbers(source.text)
         by_line = sorted(faults.items(error), key=lambda item: line_of(faults.path_of(item), lines) or 0)

@@ -7,13 +7,14 @@ from pydantic import Field
 from dilatedem.structures.box import Box
 from dilatedem.structures.brace import Brace
 from dilatedem.structures.kind import Structure
+from dilatedem.structures.mesh import Mesh
 from dilatedem.structures.parts import Parts
 from dilatedem.structures.pier import Pier
 from dilatedem.structures.pile import Pile
 from dilatedem.structures.plane import Plane
 
 #: what a part of a structure may be
-SINGLE: tuple[type[Structure], ...] = (Pile, Plane, Box, Brace, Pier)
+SINGLE: tuple[type[Structure], ...] = (Pile, Plane, Box, Brace, Pier, Mesh)
 KINDS: tuple[type[Structure], ...] = (*SINGLE, Parts)
 
 Parts.model_rebuild(_types_namespace={"Single": Annotated[Union[SINGLE], Field(discriminator="kind")]})  # noqa: UP007
