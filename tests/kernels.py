@@ -7,14 +7,14 @@ import numpy as np
 
 from dilatedem.contact.collide import separation
 from dilatedem.contact.consistent.cap import CORNERS, corner_of, facing, lay_sides, nearest, overhang
+from dilatedem.contact.consistent.cone import energy_of_pose
 from dilatedem.contact.consistent.face import press_face
 from dilatedem.contact.consistent.four import press_four
-from dilatedem.contact.consistent.join import pose_energy
 from dilatedem.contact.consistent.line import line_energy, press_edge
 from dilatedem.contact.consistent.point import elliptic, press_vertex
 from dilatedem.contact.consistent.rim import strongest_rim
-from dilatedem.contact.liu2015.patch import contact_patch
-from dilatedem.contact.search.closest import closest_points
+from dilatedem.contact.liu2015.cone import patch_of
+from dilatedem.contact.search.cone import closest
 from dilatedem.contact.search.simplex import closest_on_triangle
 from dilatedem.contact.spring import carried_over, rescaled, slide, viscous_share
 from dilatedem.contact.turning import turn_shape
@@ -40,22 +40,22 @@ carried_spring, rescaled_spring, slid_spring, share_of_dashpot = map(door, (carr
 
 @kernel
 def distance_of_pair(shapes, surroundings, bodies, pairs, vertex, face_normal, k):
-    """`closest_points` of pair k, its bodies turned: distance, normal, witness points, offset of b. The pair remembers its
+    """`closest` of pair k, its bodies turned: distance, normal, witness points, offset of b. The pair remembers its
     normal.
     """
     a, b = pairs.a[k], pairs.b[k]
     turn_shape(a, shapes, bodies.orientation, vertex, face_normal)
     turn_shape(b, shapes, bodies.orientation, vertex, face_normal)
     offset = separation(bodies.position, a, b, surroundings)
-    distance, normal, pa, pb = closest_points(vertex, face_normal, shapes, pairs, k, a, b, offset)
+    distance, normal, pa, pb = closest(vertex, face_normal, shapes, pairs, k, a, b, offset)
     store(pairs.normal, k, normal)
     return distance, normal, pa, pb, offset
 
 
 @kernel
 def patch_of_pair(shapes, pairs, vertex, face_normal, k, offset, normal, pa, pb, overlap, scratch):
-    """`contact_patch` of pair k, its bodies turned and its corners known by `distance_of_pair`."""
-    return contact_patch(
+    """`patch_of` of pair k, its bodies turned and its corners known by `distance_of_pair`."""
+    return patch_of(
         vertex, face_normal, shapes, pairs.corners[k], pairs.corner_a[k], pairs.corner_b[k], pairs.a[k], pairs.b[k],
         offset, normal, pa, pb, overlap, 0.0, scratch,
     )  # fmt: skip
@@ -63,8 +63,8 @@ def patch_of_pair(shapes, pairs, vertex, face_normal, k, offset, normal, pa, pb,
 
 @kernel
 def energy_of_pair(shapes, pairs, vertex, face_normal, k, offset, normal, pb, overlap, modulus, scratch):
-    """`pose_energy` of pair k, its bodies turned and its corners known by `distance_of_pair`."""
-    return pose_energy(
+    """`energy_of_pose` of pair k, its bodies turned and its corners known by `distance_of_pair`."""
+    return energy_of_pose(
         vertex, face_normal, shapes, pairs.a[k], pairs.b[k], pairs.corners[k], pairs.corner_a[k], pairs.corner_b[k], offset,
         normal, pb, 0.0, overlap, modulus, scratch,
     )  # fmt: skip

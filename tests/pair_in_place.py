@@ -6,7 +6,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from dilatedem.geometry.polyhedron import Polyhedron
-from dilatedem.geometry.shapes import BodyShape, pack_shapes
+from dilatedem.geometry.shapes import BodyShape, pack_shapes, tapered, tapers
 from dilatedem.state.bodies import bodies_at_rest
 from dilatedem.state.modes import Mode
 from dilatedem.state.pairs import empty_pairs
@@ -42,11 +42,12 @@ class Press(NamedTuple):
 
 
 class PairInPlace:
-    """Cores a and b with their dilated radii [m]; period (2,) [m] of the domain, 0 = not periodic."""
+    """Cores a and b with their dilated radii [m]; period (2,) [m] of the domain, 0 = not periodic; taper: of b, a cone."""
 
-    def __init__(self, core_a: Polyhedron, core_b: Polyhedron, radii=(0.04, 0.04), period=(0.0, 0.0)):
+    def __init__(self, core_a: Polyhedron, core_b: Polyhedron, radii=(0.04, 0.04), period=(0.0, 0.0), taper=0.0):
         self.cores = core_a, core_b
-        self.shapes = pack_shapes([BodyShape(c, r, None, None) for c, r in zip(self.cores, radii, strict=True)], [])
+        shapes = pack_shapes([BodyShape(c, r, None, None) for c, r in zip(self.cores, radii, strict=True)], [])
+        self.shapes = tapered(shapes, np.array([0.0, taper]))
         self.bodies = bodies_at_rest(2, 1)
         self.surroundings = Surroundings(*map(float, period))
         self._vertex, self._face_normal = self.shapes.vertex.copy(), self.shapes.face_normal.copy()
@@ -78,7 +79,7 @@ class PairInPlace:
     def patch(self) -> Patch | None:
         """None where the dilated bodies are apart."""
         distance, normal, pa, pb, offset = self._evaluate()
-        overlap = self.shapes.radius.sum() - distance
+        overlap = self._reach(pb, offset) - distance
         if overlap <= 0.0:
             return None
         mode, _, point, depth, size, _ = patch_of_pair(
@@ -89,13 +90,26 @@ class PairInPlace:
     def press(self, modulus: float = 1.0) -> Press | None:
         """None where the dilated bodies are apart."""
         distance, normal, pa, pb, offset = self._evaluate()
-        if distance >= self.shapes.radius.sum():
+        overlap = self._reach(pb, offset) - distance
+        if overlap <= 0.0:
             return None
         energy, force, moment, mode, size, _ = energy_of_pair(
-            self.shapes, self.pairs, self._vertex, self._face_normal, 0, offset, normal, pb,
-            self.shapes.radius.sum() - distance, modulus, self._scratch
+            self.shapes, self.pairs, self._vertex, self._face_normal, 0, offset, normal, pb, overlap, modulus,
+            self._scratch
         )
         return Press(energy, np.array(force), np.array(moment), Mode(mode), size)
+
+    def gap(self) -> float:
+        """Distance of the dilated bodies [m], negative where they overlap."""
+        distance, _, _, pb, offset = self._evaluate()
+        return distance - self._reach(pb, offset)
+
+    def _reach(self, pb, offset) -> float:
+        """Sum of both radii, that of b where it is met [m]."""
+        axis = self.rotation(1).apply(self.cores[1].vertices[-1])
+        taper = tapers(self.shapes)[1]
+        place = np.subtract(pb, offset) @ axis / np.linalg.norm(axis) if taper else 0.0
+        return self.shapes.radius.sum() + taper * place
 
     def _evaluate(self):
         return distance_of_pair(

@@ -3,7 +3,8 @@
 from dilatedem.contact.crushing import remember, worn
 from dilatedem.contact.friction import hold
 from dilatedem.contact.laws import press
-from dilatedem.contact.search.closest import closest_points, farthest_vertex
+from dilatedem.contact.search.closest import farthest_vertex
+from dilatedem.contact.search.cone import closest, radius_at
 from dilatedem.contact.spring import length
 from dilatedem.jit import device, item
 from dilatedem.numerics.vector import accumulate, along, dot, load, scale, store, sub
@@ -69,9 +70,10 @@ def collide(k, dt, shapes, vertex, face_normal, solids, bodies, pairs, contact, 
         distance, normal, pa, pb = _meet_half_space(vertex, shapes, pairs, k, a, b, bodies.position)
         offset = sub(load(bodies.position, b), load(bodies.position, a))
     else:
-        distance, normal, pa, pb = closest_points(vertex, face_normal, shapes, pairs, k, a, b, offset)
+        distance, normal, pa, pb = closest(vertex, face_normal, shapes, pairs, k, a, b, offset)
     store(pairs.normal, k, normal)
-    gap = distance - shapes.radius[a] - shapes.radius[b] + worn(contact, k, pairs)
+    radius_b = radius_at(shapes, vertex, b, sub(pb, offset))
+    gap = distance - shapes.radius[a] - radius_b + worn(contact, k, pairs)
     if gap >= 0.0:
         gap = remember(contact, k, gap, bodies, pairs, pa)
         pairs.wake[k] = bodies.path[a] + bodies.path[b] + gap

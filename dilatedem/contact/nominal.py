@@ -11,7 +11,9 @@ bound it where the outer size of the body ends: the height of a floe's side is i
 
 from math import atan2, inf, pi, sqrt
 
-from dilatedem.jit import device
+from dilatedem.contact.search.cone import radius_at
+from dilatedem.geometry.shapes import TaperedShapes
+from dilatedem.jit import by_type, device
 from dilatedem.numerics.vector import cross, dot, load, norm, scale, sub, tangents
 from dilatedem.state.storage import MOST_CORNERS
 
@@ -122,8 +124,22 @@ def _flat_bounds(vertex, face_normal, shapes, face, tip, t1, t2, scratch, which,
 
 
 @device
+def _never_tapers(shapes, body):
+    return False
+
+
+@device
+def _may_taper(shapes, body):
+    """Whether a body is a cone, whose side lies flush with the contact plane though its axis does not."""
+    return shapes.taper[body] != 0.0
+
+
+_tapers = by_type(_never_tapers, {TaperedShapes: _may_taper})
+
+
+@device
 def _round_bounds(vertex, shapes, body, tip, normal, t1, t2, scratch, which):
-    """The half planes of a body without faces: a sphere, or a capsule, such as a pile is."""
+    """The half planes of a body without faces: a sphere, a capsule, such as a pile is, or a cone."""
     first, last, count = shapes.vertex_start[body], shapes.vertex_start[body + 1] - 1, 0
     axis = sub(load(vertex, last), load(vertex, first))
     u, v = dot(axis, t1), dot(axis, t2)
@@ -134,7 +150,7 @@ def _round_bounds(vertex, shapes, body, tip, normal, t1, t2, scratch, which):
         count = _note(scratch, which, count, -v, u, 1.0, 0.0, inf)
         away = sub(load(vertex, first if turn == 0 else last), tip)
         start, fall = max(u * dot(away, t1) + v * dot(away, t2), 0.0), -dot(away, normal)
-        if fall > FLUSH * start and start > 0.0:  # down the side that slopes away from the tip
+        if fall > FLUSH * start and start > 0.0 and not _tapers(shapes, body):  # down the side that slopes away from the tip
             count = _note(scratch, which, count, u, v, 1.0, 0.0, fall / start)
         count = _note(scratch, which, count, u, v, 1.0, start, inf)
     return count
@@ -253,7 +269,7 @@ def nominal_area(vertex, face_normal, shapes, a, b, offset, normal, pa, pb, dept
     witness points on the cores, all relative to a's centroid; scratch (8, MOST_CORNERS, 3). b may be a half space.
     """
     t1, t2 = tangents(normal)
-    ra, rb, back, others = shapes.radius[a], shapes.radius[b], scale(-1.0, normal), 0
+    ra, rb, back, others = shapes.radius[a], radius_at(shapes, vertex, b, sub(pb, offset)), scale(-1.0, normal), 0
     count = _bounds(vertex, face_normal, shapes, a, pa, normal, t1, t2, scratch, 0)
     if shapes.kind[b] == 0:
         others = _bounds(vertex, face_normal, shapes, b, sub(pb, offset), back, t1, t2, scratch, 1)

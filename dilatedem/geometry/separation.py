@@ -34,6 +34,41 @@ def core_distance(a: Polyhedron, b: Polyhedron) -> float:
     return -_depth(a, b)
 
 
+def cone_distance(core: Polyhedron, axis: np.ndarray, radii: np.ndarray) -> float:
+    """Signed distance [m] of a core from the hull of two spheres about the ends `axis` (2, 3) [m], of the radii (2,) [m].
+
+    Beside the side of that cone an edge of the core is closest, or a corner, as the gap has no least value within a face; past its
+    ends the spheres are. Where the axis is in the core: less than nothing by the larger radius.
+    """
+    length = float(np.linalg.norm(axis[1] - axis[0]))
+    if core_distance(core, Polyhedron(axis, np.array([[0, 1]]), (), np.zeros((0, 3)))) <= 0.0:
+        return -float(radii.max())
+    ends = [_distance(core.vertices, end[None]) - radius for end, radius in zip(axis, radii, strict=True)]
+    taper = (radii[1] - radii[0]) / length
+    return min(*ends, _distance_from_side(core, axis[0], (axis[1] - axis[0]) / length, length, radii[0], taper))
+
+
+def _distance_from_side(core: Polyhedron, start: np.ndarray, unit: np.ndarray, length: float, radius: float, taper: float) -> float:
+    """Distance [m] of a core's edges from the side of a cone: of spheres whose radius grows by `taper` along its axis."""
+    lean = taper / np.sqrt(1.0 - taper * taper)
+    first, edge = core.vertices[core.edges[:, 0]] - start, core.vertices[core.edges[:, 1]] - core.vertices[core.edges[:, 0]]
+    rise = edge @ unit
+    flat, level, tilt = first - np.outer(first @ unit, unit), edge - np.outer(rise, unit), lean * rise
+    square = np.vecdot(level, level)
+    # the gap cosine rho - taper z is least where rho' = lean z'; along steeper edges at an end
+    steep = square <= tilt * tilt
+    divisor = np.where(steep, 1.0, square)
+    foot = -np.vecdot(flat, level) / divisor
+    nearest = np.linalg.norm(flat + foot[:, None] * level, axis=1)
+    place = foot + tilt * nearest / np.sqrt(np.where(steep, 1.0, square * (square - tilt * tilt)))
+    place = np.clip(np.where(steep, (tilt > 0.0).astype(float), place), 0.0, 1.0)
+    point = first + place[:, None] * edge
+    height = point @ unit
+    rho = np.linalg.norm(point - np.outer(height, unit), axis=1)
+    centre = np.clip(height + lean * rho, 0.0, length)
+    return float((np.hypot(rho, height - centre) - radius - taper * centre).min(initial=np.inf))
+
+
 def _distance(a: np.ndarray, b: np.ndarray) -> float:
     """Distance [m] of the convex hulls of points (m, 3) and (n, 3) [m]; 0 where they meet."""
     corners = [b[0] - a[0]]

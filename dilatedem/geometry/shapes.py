@@ -67,6 +67,12 @@ class Shapes(NamedTuple):
     plane_normal: np.ndarray  # (n, 3) outward normal of a half space, zero for others
 
 
+#: `Shapes`, of which some are hulls of spheres that grow along a core of two corners, with a circular cone for a side. taper (n,):
+#: growth of the radius per metre from the first corner to the second, 0 for others; `radius` is that in the middle, the origin of
+#: the body. A class of its own, so that kernels know nothing of it where no shape has any.
+TaperedShapes = NamedTuple("TaperedShapes", [*Shapes.__annotations__.items(), ("taper", np.ndarray)])
+
+
 class Hulls(NamedTuple):
     """Sharp outer polyhedra of all bodies, for water loads; m bodies that float (structures have none)."""
 
@@ -110,6 +116,20 @@ def pack_shapes(shapes: Sequence[BodyShape], planes: Sequence[np.ndarray], order
         loop=packed.loop,
         plane_normal=plane_normal,
     )
+
+
+def tapered(shapes: Shapes, taper: np.ndarray) -> Shapes | TaperedShapes:
+    """The same shapes with the taper (n,) of their dilations; `shapes` itself where none has any."""
+    if not taper.any():
+        return shapes
+    first, last = shapes.vertex_start[:-1][taper != 0.0], shapes.vertex_start[1:][taper != 0.0] - 1
+    shapes.reach[taper != 0.0] += 0.5 * np.abs(taper[taper != 0.0]) * norm(shapes.vertex[last] - shapes.vertex[first])
+    return TaperedShapes(*shapes, taper)
+
+
+def tapers(shapes: Shapes | TaperedShapes) -> np.ndarray:
+    """(n,) taper of each body's dilation."""
+    return getattr(shapes, "taper", np.zeros(len(shapes.radius)))
 
 
 def _with_empty(start: np.ndarray, count: int) -> np.ndarray:

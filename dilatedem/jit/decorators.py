@@ -70,8 +70,8 @@ def shared_loop(function):
     return numba.njit(**_INNER, parallel=True)(function)
 
 
-def by_type(usual, others):
-    """A device function that runs one of several (compiled, same arguments) by the type of its first argument.
+def by_type(usual, others, *, at=0):
+    """A device function that runs one of several (compiled, same arguments) by the type of its first argument, or of number `at`.
 
     usual: the one that runs where that argument is no NamedTuple of `others`, a dictionary by class. The choice falls while a
     kernel is compiled: what is not chosen is not compiled.
@@ -84,7 +84,7 @@ def by_type(usual, others):
         # the function itself rather than a call of it: every layer of calls is compiled once more
         @overload(stage, strict=False, jit_options=function.targetoptions)
         def choose(*arguments):
-            chosen = others.get(getattr(arguments[0], "instance_class", None), usual)
+            chosen = others.get(getattr(arguments[at], "instance_class", None), usual)
             return chosen.py_func if chosen is function else None
 
     for function in dict.fromkeys((usual, *others.values())):

@@ -52,7 +52,7 @@ def load_checkpoint(out: Path, case: Case, simulation: Simulation) -> dict:
         state.watch.restore(groups, meta["watch"], where=str(file))
     simulation.make_room()
     if "shapes" in groups:  # bodies have come or gone since the start
-        arrays = {name: checkpoint.restore(kind, groups[name], where=str(file)) for name, kind in REMODELLED.items()}
+        arrays = {name: checkpoint.restore(type(getattr(model, name)), groups[name], where=str(file)) for name in REMODELLED}
         own, structures = model.structure_of[: model.floating], model.structure_of[model.floating :]
         structure_of = np.concatenate([own[state.ids.body], structures])
         simulation.adopt(model._replace(floating=len(state.ids.body), structure_of=structure_of, **arrays))

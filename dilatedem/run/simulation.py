@@ -12,7 +12,6 @@ from dilatedem.case.schema import Case
 from dilatedem.errors import CaseError, SimulationStopped
 from dilatedem.events.event import Event
 from dilatedem.events.kinds import events_of
-from dilatedem.geometry.shapes import Hulls, Shapes
 from dilatedem.jit import Alone, NoTimer, Team, Timer, is_cached, share_among, start_threads
 from dilatedem.motion.timestep import critical_step
 from dilatedem.run.advice import advice
@@ -24,7 +23,7 @@ from dilatedem.run.views import Floes, Structures
 from dilatedem.scene.arrays import build_model, initial_bodies
 from dilatedem.scene.overlaps import require_apart
 from dilatedem.scene.place import Scene, compose
-from dilatedem.state.bodies import Bodies, Ids, Solids
+from dilatedem.state.bodies import Bodies, Ids
 from dilatedem.state.clock import NEVER, Clock, Status, clock_at_start
 from dilatedem.state.ledger import Ledger, empty_ledger, energies
 from dilatedem.state.loads import Loads, Windows, empty_loads, no_windows
@@ -38,7 +37,7 @@ from dilatedem.water.loads import WORKS, works_of
 #: room for pairs at the start, per body; it grows where it is not enough
 PAIRS_PER_BODY = 8
 #: of the model, what an event changes
-REMODELLED = {"shapes": Shapes, "hulls": Hulls, "solids": Solids}
+REMODELLED = ("shapes", "hulls", "solids")
 #: steps by which a time may be missed, as sums of decimal numbers are
 ROUND_OFF = 1e-6
 

@@ -6,7 +6,7 @@ from dilatedem.case.schema import Case
 from dilatedem.contact.consistent.dashpot import own_damping
 from dilatedem.errors import CaseError
 from dilatedem.geometry.outline import perimeter
-from dilatedem.geometry.shapes import pack_hulls, pack_shapes
+from dilatedem.geometry.shapes import pack_hulls, pack_shapes, tapered
 from dilatedem.numerics.blocks import offsets
 from dilatedem.numerics.frames import matrix_from_quaternion
 from dilatedem.numerics.plain import inverse, turned
@@ -37,7 +37,7 @@ def build_model(case: Case, scene: Scene) -> Model:
         floating=scene.count,
         structure_of=np.concatenate([_held(scene), _numbers(scene)]).astype(np.int64),
         whole_of=_wholes(scene),
-        shapes=shapes,
+        shapes=tapered(shapes, np.concatenate([np.zeros(scene.count), [part.taper for part in parts]])),
         hulls=pack_hulls(scene.shapes, scene.order),
         solids=_solids(case, scene),
         contact=_contact_setting(case),

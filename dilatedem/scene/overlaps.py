@@ -13,9 +13,10 @@ import shapely
 
 from dilatedem.errors import CaseError
 from dilatedem.geometry.polyhedron import Polyhedron
-from dilatedem.geometry.separation import core_distance
+from dilatedem.geometry.separation import cone_distance, core_distance
+from dilatedem.geometry.shapes import tapers
 from dilatedem.numerics.frames import matrix_from_quaternion
-from dilatedem.numerics.plain import dot, turned
+from dilatedem.numerics.plain import dot, norm, turned
 from dilatedem.scene.place import Scene
 from dilatedem.state.bodies import Bodies
 from dilatedem.state.model import Model
@@ -82,11 +83,25 @@ class _Place:
         self.turn = matrix_from_quaternion(bodies.orientation[: self.count])
         owner = np.repeat(np.arange(self.count), np.diff(self.start))
         self.vertex = turned(self.turn[owner], self.shapes.vertex) + self.position[owner]
-        radius = self.shapes.radius[: self.count, None]
-        self.low = np.minimum.reduceat(self.vertex, self.start[:-1]) - radius
-        self.high = np.maximum.reduceat(self.vertex, self.start[:-1]) + radius
+        self.radii = self._radii(owner)
+        self.widest = np.maximum.reduceat(self.radii, self.start[:-1])
+        self.low = np.minimum.reduceat(self.vertex - self.radii[:, None], self.start[:-1])
+        self.high = np.maximum.reduceat(self.vertex + self.radii[:, None], self.start[:-1])
         self.points = bodies.position[self.count :]
         self.held = model.solids.inverse_mass == 0.0
+
+    def _radii(self, owner: np.ndarray) -> np.ndarray:
+        """(v,) dilated radii at the vertices [m]; owner (v,): the body of each."""
+        radii = self.shapes.radius[owner]
+        taper = tapers(self.shapes)[owner]
+        ahead = np.arange(len(owner)) == self.start[owner + 1] - 1  # of two corners, the second
+        return radii + np.where(ahead, 1.0, -1.0) * taper * norm(self.vertex - self.position[owner])
+
+    def distance(self, a: int, b: int, shift: np.ndarray) -> float:
+        """Distance [m] of the core of a, moved by `shift` (3,) [m], from the dilated surface of b; negative inside."""
+        if tapers(self.shapes)[b] == 0.0:
+            return core_distance(self.core(a, shift), self.core(b, np.zeros(3))) - self.shapes.radius[b]
+        return cone_distance(self.core(a, shift), self.vertices(b), self.radii[self.start[b] : self.start[b + 1]])
 
     def vertices(self, i: int) -> np.ndarray:
         return self.vertex[self.start[i] : self.start[i + 1]]
@@ -123,15 +138,14 @@ def _cores(here: _Place) -> Iterator[Overlap]:
     """Bodies of the list in each other, in a generated floe or in the core of a structure."""
     radius = here.shapes.radius
     for a, b, shift in _near(here):
-        together = radius[a] + radius[b]
-        depth = together - core_distance(here.core(a, shift), here.core(b, np.zeros(3)))
+        depth = radius[a] - here.distance(a, b, shift)
         if depth > TOUCHING * min(radius[a], radius[b]):
             yield Overlap(int(a), int(b), float(depth), bool(shift.any()))
 
 
 def _near(here: _Place) -> Iterator[tuple[int, int, np.ndarray]]:
     """Pairs whose dilated outlines in plan and heights meet, a < b, and the shift (3,) [m] of a that brings it to b."""
-    low, high, radius = here.low, here.high, here.shapes.radius
+    low, high, radius = here.low, here.high, here.widest
     tree = shapely.STRtree(shapely.box(low[:, 0], low[:, 1], high[:, 0], high[:, 1]))
     sought = np.concatenate([np.arange(here.scene.explicit), np.arange(here.scene.count, here.count)])
     is_sought = np.isin(np.arange(here.count), sought)

@@ -42,7 +42,9 @@ class Part:
 
     position (3,) [m]: centroid, or a point of the half space's plane; orientation (4,): unit quaternion, body to world; shape: of
     the core, None for a half space; normal (3,): outward unit normal of a half space, None for a core; plan_reach [m]: radius of
-    the upright cylinder about `position` that holds a core, or more.
+    the upright cylinder about `position` that holds a core, or more; taper: what the radius of dilation grows by per metre from
+    the first to the second corner of a core of two, whose radius is that in the middle; the part is a circular cone then, with a
+    sphere at either end.
     """
 
     position: np.ndarray
@@ -50,6 +52,7 @@ class Part:
     shape: BodyShape | None = None
     normal: np.ndarray | None = None
     plan_reach: float = 0.0
+    taper: float = 0.0
 
     @property
     def is_half_space(self) -> bool:

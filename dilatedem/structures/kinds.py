@@ -6,6 +6,7 @@ from pydantic import Field
 
 from dilatedem.structures.box import Box
 from dilatedem.structures.brace import Brace
+from dilatedem.structures.cone import Cone
 from dilatedem.structures.kind import Structure
 from dilatedem.structures.mesh import Mesh
 from dilatedem.structures.parts import Parts
@@ -14,7 +15,7 @@ from dilatedem.structures.pile import Pile
 from dilatedem.structures.plane import Plane
 
 #: what a part of a structure may be
-SINGLE: tuple[type[Structure], ...] = (Pile, Plane, Box, Brace, Pier, Mesh)
+SINGLE: tuple[type[Structure], ...] = (Pile, Cone, Plane, Box, Brace, Pier, Mesh)
 KINDS: tuple[type[Structure], ...] = (*SINGLE, Parts)
 
 Parts.model_rebuild(_types_namespace={"Single": Annotated[Union[SINGLE], Field(discriminator="kind")]})  # noqa: UP007

@@ -43,7 +43,7 @@ def _sharpened(x):
 
 
 @device
-def _join(largest, total, force, moment, energy, more, turn):
+def join_feature(largest, total, force, moment, energy, more, turn):
     """Add a feature to the sums, kept relative to the largest energy so far."""
     if energy <= largest:
         ratio = energy / largest
@@ -104,7 +104,7 @@ def _rims_count(scratch, patch, reach, overlap, bluntest, modulus, least):
 
 
 @device
-def _edges(scratch, which, count, normal, p, e, force, moment):
+def mode_of_edges(scratch, which, count, normal, p, e, force, moment):
     """Mode of an edge p + s e that presses on an edge of cap `which`: by their angle where the force acts."""
     arm = cross(e, force)
     square = dot(arm, arm)
@@ -128,8 +128,8 @@ def _runs_past(scratch, which, count, normal, p, d, square):
 
 @device
 def _press_rims(own, scratch, count, radius, their, other, normal, reach, overlap, longest, modulus, sums):
-    """Add the edges and vertices of cap `own` (0: of a, 1: of b) that press on the other cap to the sums of `_join`; returns those
-    with the mode and size of the leading feature.
+    """Add the edges and vertices of cap `own` (0: of a, 1: of b) that press on the other cap to the sums of `join_feature`;
+    returns those with the mode and size of the leading feature.
 
     count, radius: corners and dilated radius of cap `own`; their, other, normal: of the other cap; reach [m]: of both dilations,
     less what has crushed; longest: length that no contact of an edge exceeds [m].
@@ -170,9 +170,10 @@ def _press_rims(own, scratch, count, radius, their, other, normal, reach, overla
             if energy > largest:
                 mode, size = EDGE_FACE, line
                 if across >= 0.5:
-                    mode = _edges(scratch, which, their, normal, p, e, more, turn)
+                    mode = mode_of_edges(scratch, which, their, normal, p, e, more, turn)
                 spread = scale(line / sqrt(12.0), e), NONE
-            largest, total, force, moment = _join(largest, total, force, moment, energy, scale(sign, more), scale(sign, turn))
+            more, turn = scale(sign, more), scale(sign, turn)
+            largest, total, force, moment = join_feature(largest, total, force, moment, energy, more, turn)
     for i in range(count):
         x = corner_of(scratch, own, i)
         if flat:
@@ -185,7 +186,7 @@ def _press_rims(own, scratch, count, radius, their, other, normal, reach, overla
                 mode, size = VERTEX_FACE if across < 0.5 else (VERTEX_EDGE if beyond < 0.5 else VERTEX_VERTEX), 1.0
                 spread = NONE, NONE
             more = scale(sign, more)
-            largest, total, force, moment = _join(largest, total, force, moment, energy, more, cross(x, more))
+            largest, total, force, moment = join_feature(largest, total, force, moment, energy, more, cross(x, more))
     return largest, total, force, moment, mode, size, spread
 
 

@@ -49,7 +49,7 @@ def line_energy(modulus, first, second, curvature):
 
 
 @item
-def _exit(scratch, which, count, normal, region, place, x, e, length):
+def exit_of_region(scratch, which, count, normal, region, place, x, e, length):
     """Way along the unit vector e from x to where the line leaves a region of the cap, at most `length`."""
     way = length
     if count == UNBOUNDED or count == 1:
@@ -104,7 +104,7 @@ def _pressing(w, turn, reach, low, high):
 
 
 @device
-def _beside(w, region, out, normal):
+def beside_border(w, region, out, normal):
     """The part of a vector from a cap that leads beyond its border: across the side with the normal `out`, or from a corner."""
     return scale(dot(w, out), out) if region == SIDE else along(w, -dot(w, normal), normal)
 
@@ -155,7 +155,7 @@ def _add_piece(sums, x, e, low, high, w, turn, scratch, which, count, normal, re
         return i1, i2, f1, f2, m1, m2, i3, f3, m3, i4, f4, m4
     if count > 2:
         out = cross(side_of(scratch, which, place), normal)
-        b, c = _beside(w, region, out, normal), _beside(turn, region, out, normal)
+        b, c = beside_border(w, region, out, normal), beside_border(turn, region, out, normal)
         b0, b1, b2 = dot(b, b), 2.0 * dot(b, c), dot(c, c)
         s6 = s0 * square * square * square * (1.0 / 7.0)
         square1, square2 = q1 * s2 + q3 * s4, q0 * s2 + q2 * s4 + q4 * s6
@@ -201,7 +201,7 @@ def press_edge(p, e, length, radius, scratch, which, count, normal, other, reach
         s += STEP * length
         x = along(p, s, e)
         region, place, w = nearest(scratch, which, count, normal, x)
-        way = min(high - s, _exit(scratch, which, count, normal, region, place, x, e, high - s))
+        way = min(high - s, exit_of_region(scratch, which, count, normal, region, place, x, e, high - s))
         # w is linear along the piece: its part at right angles to what the region is spanned by
         turn = e
         if region == INTERIOR:
@@ -217,7 +217,7 @@ def press_edge(p, e, length, radius, scratch, which, count, normal, other, reach
 
 
 @device
-def _levelled(q):
+def levelled(q):
     """A value that rises from 0 and levels off at 1 for q = 1, and its slope."""
     if q >= 1.0:
         return 1.0, 0.0
@@ -241,8 +241,8 @@ def _whole_line(sums, radius, other, bare, modulus, sharp):
     # little of it counts: the rims round which a line over the face runs out at its ends lie along it
     mean = i3 / (i2 * width * width)
     root = sqrt(mean)
-    across, across_slope = _levelled(1.0 if bare else mean * root)
-    beyond, beyond_slope = _levelled(i4 / (i2 * width * width))
+    across, across_slope = levelled(1.0 if bare else mean * root)
+    beyond, beyond_slope = levelled(i4 / (i2 * width * width))
     energy, by_first, by_second, by_curvature = line_energy(modulus, i1, i2, 1.0 / radius + across * their)
     share = exp(-yielded * across)
     kept = share * (1.0 - beyond)  # past a corner it is the corner that presses, a vertex of its own

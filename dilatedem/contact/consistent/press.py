@@ -3,10 +3,11 @@
 from math import sqrt
 from typing import NamedTuple
 
+from dilatedem.contact.consistent.cone import energy_of_pose
 from dilatedem.contact.consistent.dashpot import dashpot
-from dilatedem.contact.consistent.join import pose_energy
 from dilatedem.contact.crushing import UNTRIED, WHOLE, note_crushed, settle, worn
 from dilatedem.contact.pressed import Pressed
+from dilatedem.contact.search.cone import radius_at
 from dilatedem.jit import device, item
 from dilatedem.numerics.vector import along, cross, dot, scale, store, sub
 from dilatedem.state.response import mobility, relative_spin, relative_velocity
@@ -86,6 +87,7 @@ def press_consistent(contact, k, dt, shapes, vertex, face_normal, solids, bodies
     """
     a, b = pairs.a[k], pairs.b[k]
     crushed = worn(contact, k, pairs)
+    reach = shapes.radius[a] + radius_at(shapes, vertex, b, sub(pb, offset))
     whole = crushed - gap  # overlap of what has not crushed [m]
     modulus = 1.0 / (solids.compliance[a] + solids.compliance[b])
     search, found, settled = UNTRIED, WHOLE, False
@@ -93,8 +95,8 @@ def press_consistent(contact, k, dt, shapes, vertex, face_normal, solids, bodies
         overlap = whole - crushed
         middle = along(pa, shapes.radius[a] - 0.5 * overlap, normal)
         energy, force, moment, mode, size, spread = 0.0, NONE, NONE, 0, 1.0, (NONE, NONE)
-        if whole < DEEPEST_SHARE * (shapes.radius[a] + shapes.radius[b]):
-            energy, force, moment, mode, size, spread = pose_energy(
+        if whole < DEEPEST_SHARE * reach:
+            energy, force, moment, mode, size, spread = energy_of_pose(
                 vertex, face_normal, shapes, a, b, pairs.corners[k], pairs.corner_a[k], pairs.corner_b[k], offset, normal, pb,
                 crushed, overlap, modulus, scratch,
             )  # fmt: skip

@@ -27,7 +27,7 @@ ORIGIN = (0.0, 0.0, 0.0)
 
 
 @device
-def _point(kind_a, kind_b):
+def point_mode(kind_a, kind_b):
     """Mode of a contact at a point: the lower feature's corner on the other."""
     high = max(kind_a, kind_b)
     if min(kind_a, kind_b) == VERTEX:
@@ -58,7 +58,7 @@ def _clip_by_face(vertex, shapes, face, origin, t1, t2, turn, rim, source, count
 
 
 @item
-def _surface(vertex, face_normal, shapes, face, origin, normal, t1, t2, radius):
+def face_plane(vertex, face_normal, shapes, face, origin, normal, t1, t2, radius):
     """Height along the normal of a face's dilated plane as h0 + hu u + hv v; radius < 0 for the face of b."""
     m = load(face_normal, face)
     mn = dot(m, normal)
@@ -93,7 +93,7 @@ def _face_on_face(vertex, shapes, face_a, face_b, offset, normal, t1, t2, ra, pl
 
 
 @item
-def _edge_patch(vertex, shapes, p, q, rise, face, origin, side, normal, t1, t2, plane, rim, narrow, overlap):
+def edge_patch(vertex, shapes, p, q, rise, face, origin, side, normal, t1, t2, plane, rim, narrow, overlap):
     """Part of the edge p q that penetrates a face: mode (-1: none), point of application, overlap there, length [m].
 
     p, q: ends, relative to a's centroid; rise: height of the edge's dilated surface over its axis, along the normal; side: 1 where
@@ -174,7 +174,7 @@ def contact_patch(
         kind_b, m, n = support_feature(vertex, face_normal, shapes, b, corner_b, max(corners, 1), scale(-1.0, normal))
         plane = (0.0, 0.0, 0.0)
         if kind_b == FACE:
-            plane = _surface(vertex, face_normal, shapes, m, offset, normal, t1, t2, -rb)
+            plane = face_plane(vertex, face_normal, shapes, m, offset, normal, t1, t2, -rb)
 
     if kind_a == FACE and kind_b == FACE:
         area, extent, width, u, v, h = _face_on_face(vertex, shapes, i, m, offset, normal, t1, t2, ra, plane, rim, scratch)
@@ -188,29 +188,30 @@ def contact_patch(
             return VERTEX_FACE, a_lower, point, overlap, 1.0, 0.0
     elif kind_a == EDGE and kind_b == FACE:
         p, q = load(vertex, i), load(vertex, j)
-        mode, point, depth, length = _edge_patch(
+        mode, point, depth, length = edge_patch(
             vertex, shapes, p, q, ra, m, offset, 1.0, normal, t1, t2, plane, rim, narrow, overlap
         )
         if mode >= 0:
             return mode, True, point, depth, length, 0.0
     elif kind_a == FACE and kind_b == EDGE:
         p, q = add(offset, load(vertex, m)), add(offset, load(vertex, n))
-        plane = _surface(vertex, face_normal, shapes, i, ORIGIN, normal, t1, t2, ra)
-        mode, point, depth, length = _edge_patch(
+        plane = face_plane(vertex, face_normal, shapes, i, ORIGIN, normal, t1, t2, ra)
+        mode, point, depth, length = edge_patch(
             vertex, shapes, p, q, -rb, i, ORIGIN, -1.0, normal, t1, t2, plane, rim, narrow, overlap
         )
         if mode >= 0:
             return mode, False, point, depth, length, 0.0
     elif kind_a == VERTEX and kind_b == FACE:
-        if half_space or _inside(vertex, shapes, pa, m, offset, t1, t2, -1.0, rim):
+        if half_space or is_inside(vertex, shapes, pa, m, offset, t1, t2, -1.0, rim):
             return VERTEX_FACE, True, middle, overlap, 1.0, 0.0
     elif kind_a == FACE and kind_b == VERTEX:
-        if _inside(vertex, shapes, pb, i, ORIGIN, t1, t2, 1.0, rim):
+        if is_inside(vertex, shapes, pb, i, ORIGIN, t1, t2, 1.0, rim):
             return VERTEX_FACE, False, middle, overlap, 1.0, 0.0
     elif kind_a == EDGE and kind_b == EDGE:
-        mode, point, depth, size, sine = _edges(
-            vertex, i, j, m, n, offset, normal, ra, rb, narrow, middle, overlap, corners, corner_a, corner_b
-        )
+        mode, point, depth, size, sine = edges_patch(
+            load(vertex, i), load(vertex, j), add(offset, load(vertex, m)), add(offset, load(vertex, n)), normal, ra, rb, narrow,
+            middle, overlap, corners, corner_a, corner_b,
+        )  # fmt: skip
         if mode >= 0:
             return mode, True, point, depth, size, sine
     elif kind_a == VERTEX and kind_b == VERTEX:
@@ -219,17 +220,18 @@ def contact_patch(
     kind_a, i, j = corner_feature(corner_a, max(corners, 1))
     kind_b, m, n = corner_feature(corner_b, max(corners, 1))
     if kind_a == EDGE and kind_b == EDGE:
-        mode, point, depth, size, sine = _edges(
-            vertex, i, j, m, n, offset, normal, ra, rb, narrow, middle, overlap, corners, corner_a, corner_b
-        )
+        mode, point, depth, size, sine = edges_patch(
+            load(vertex, i), load(vertex, j), add(offset, load(vertex, m)), add(offset, load(vertex, n)), normal, ra, rb, narrow,
+            middle, overlap, corners, corner_a, corner_b,
+        )  # fmt: skip
         if mode >= 0:
             return mode, True, point, depth, size, sine
         return VERTEX_EDGE, True, middle, overlap, 1.0, 0.0
-    return _point(kind_a, kind_b), kind_a <= kind_b, middle, overlap, 1.0, 1.0
+    return point_mode(kind_a, kind_b), kind_a <= kind_b, middle, overlap, 1.0, 1.0
 
 
 @item
-def _inside(vertex, shapes, point, face, origin, t1, t2, turn, rim):
+def is_inside(vertex, shapes, point, face, origin, t1, t2, turn, rim):
     """Whether a point projects into a face (turn and rim as in `_clip_by_face`)."""
     first, last = shapes.loop_start[face], shapes.loop_start[face + 1]
     for i in range(first, last):
@@ -243,10 +245,8 @@ def _inside(vertex, shapes, point, face, origin, t1, t2, turn, rim):
 
 
 @device
-def _edges(vertex, i, j, m, n, offset, normal, ra, rb, narrow, middle, overlap, corners, corner_a, corner_b):
-    """Two edges, crossing or along each other; mode -1 where neither holds (they only meet at an end)."""
-    pa, qa = load(vertex, i), load(vertex, j)
-    pb, qb = add(offset, load(vertex, m)), add(offset, load(vertex, n))
+def edges_patch(pa, qa, pb, qb, normal, ra, rb, narrow, middle, overlap, corners, corner_a, corner_b):
+    """Two edges pa qa and pb qb, crossing or along each other; mode -1 where neither holds (they only meet at an end)."""
     ea, eb = sub(qa, pa), sub(qb, pb)
     c = dot(cross(ea, eb), normal)
     sine = abs(c) / sqrt(dot(ea, ea) * dot(eb, eb))

@@ -7,6 +7,7 @@ results, is said in docs/theory.md.
 from math import pi, sqrt
 
 from dilatedem.contact.crushing import UNTRIED, WHOLE, note_crushed, settle, worn
+from dilatedem.contact.liu2015.cone import patch_of, radius_under
 from dilatedem.contact.liu2015.patch import (
     EDGE_CROSSING,
     EDGE_FACE,
@@ -15,7 +16,6 @@ from dilatedem.contact.liu2015.patch import (
     VERTEX_EDGE,
     VERTEX_FACE,
     VERTEX_VERTEX,
-    contact_patch,
 )
 from dilatedem.contact.pressed import Pressed
 from dilatedem.jit import device, item
@@ -112,11 +112,11 @@ def press_liu2015(contact, k, dt, shapes, vertex, face_normal, solids, bodies, p
     modulus = 1.0 / (solids.compliance[a] + solids.compliance[b])
     search, found, settled = UNTRIED, WHOLE, False
     while not settled:
-        mode, a_lower, point, overlap, size, sine = contact_patch(
+        mode, a_lower, point, overlap, size, sine = patch_of(
             vertex, face_normal, shapes, pairs.corners[k], pairs.corner_a[k], pairs.corner_b[k], a, b, offset, normal, pa, pb,
             whole - crushed, crushed, scratch,
         )  # fmt: skip
-        first, second = shapes.radius[a], shapes.radius[b]
+        first, second = shapes.radius[a], radius_under(shapes, vertex, b, sub(point, offset))
         if not a_lower:
             first, second = second, first
         stiffness, exponent = normal_stiffness(mode, modulus, first, second, size, sine)

@@ -90,7 +90,7 @@ def core_penetration(vertex, face_normal, shapes, a, b, offset, previous):
                     if depth < best:
                         best, normal = depth, d
     if best == 1e300:
-        normal = _any_normal(previous, offset)
+        normal = any_normal(previous, offset)
         best = max(_depth_along(vertex, a0, a1, b0, b1, offset, normal), 0.0)
     slack = 1e-6 * (shapes.reach[a] + shapes.reach[b])
     pa = _support_centre(vertex, a0, a1, normal, slack)
@@ -115,7 +115,7 @@ def _support_size(vertex, first, last, d, slack):
 
 
 @device
-def _any_normal(previous, offset):
+def any_normal(previous, offset):
     """The last normal, else the line of centres, else up."""
     if dot(previous, previous) > 0.25:
         return previous
