@@ -5,6 +5,8 @@ import pytest
 
 from dilatedem.case.schema import Case
 from dilatedem.errors import CaseError
+from dilatedem.geometry.packing import selected
+from dilatedem.geometry.shapes import TaperedShapes
 from dilatedem.run.simulation import Simulation
 from dilatedem.scene.overlaps import require_apart
 from dilatedem.state.clock import Status
@@ -51,6 +53,13 @@ def test_a_floe_in_it_at_the_start_is_named():
         require_apart(simulation.scene, simulation.model, simulation.state.bodies)
     clear = thrown("consistent")
     require_apart(clear.scene, clear.model, clear.state.bodies)
+
+
+def test_it_stays_a_cone_when_bodies_leave():
+    shapes = thrown("consistent").model.shapes
+    left = selected(shapes, np.array([1]))
+    assert type(left) is TaperedShapes and left.taper == pytest.approx(-0.5), "minus the cosine of 60 degrees"
+    assert (left.reach, left.radius) == (shapes.reach[1:], shapes.radius[1:])
 
 
 def test_its_spheres_touch_the_side_along_its_two_circles():
