@@ -25,9 +25,11 @@ from dilatedem.case.schema import Case
 from dilatedem.run.simulation import PAIRS_PER_BODY, Simulation, State
 from dilatedem.state.bodies import Bodies, Ids
 from dilatedem.state.clock import Status, clock_at_start
+from dilatedem.state.hits import no_hits
 from dilatedem.state.ledger import empty_ledger
 from dilatedem.state.loads import empty_loads
 from dilatedem.state.pairs import empty_pairs
+from dilatedem.state.records import records_of
 
 SCENES = ("drift", "jam", "packed")
 MODELS = ("liu2015", "consistent")
@@ -109,12 +111,16 @@ def tiled(tile: Simulation, along_x: int, along_y: int, *, threads: int = 1) -> 
         structure_of=repeated_structures(tile.model.structure_of, floating, copies),
         whole_of=repeated_wholes(tile.model.whole_of, copies),
         charts=repeated_charts(tile.model.charts, moves),
+        records=records_of([
+            tuple(member + copy * len(tile.scene.structures) for member in record.members)
+            for copy in range(copies) for record in tile.scene.records[: len(tile.scene.structures)]
+        ]),
     )
     bodies: Bodies = repeated_bodies(tile.state.bodies, floating, moves)
     loads = empty_loads(len(model.charts.center), int(model.charts.map.max(initial=-1)) + 1)
     pairs = empty_pairs(PAIRS_PER_BODY * len(bodies.path) + 64)
     ledger = empty_ledger(len(tile.state.ledger.departed_work))
-    state = State(Ids(np.arange(model.floating)), bodies, pairs, ledger, loads, clock_at_start())
+    state = State(Ids(np.arange(model.floating)), bodies, pairs, ledger, loads, no_hits(0), clock_at_start())
     return replace(tile, model=model, state=state, threads=threads)
 
 

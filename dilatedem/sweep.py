@@ -33,7 +33,10 @@ from dilatedem.results.files import read_summary
 TABLE = "sweep.csv"
 
 # Of summary.json's loads, these go to the table, as <structure>_<load>.
-LOADS = ("fx_max_N", "fx_mean_N", "fy_max_N", "fy_min_N", "fh_max_N")
+LOADS = (
+    "fx_max_N", "fx_mean_N", "fy_max_N", "fy_min_N", "fh_max_N", "along_max_N", "along_mean_N", "across_max_N", "across_min_N",
+    "mh_max_Nm", "mz_max_Nm", "mz_min_Nm",
+)  # fmt: skip
 
 # How a process is started that runs cases.
 WORKER = [sys.executable, "-m", "dilatedem.worker"]
@@ -264,7 +267,7 @@ def _row(job: Job) -> dict[str, Any]:
     summary = _summary(job)
     loads = summary.get("loads", {})
     row |= {"steps": summary.get("steps", ""), "wall_s": summary.get("wall_s", "")}
-    # The structures of the case first, so that the columns stand before anything has run; walls follow.
+    # The structures of the case first, so that the columns stand before anything has run; walls and the total follow.
     for name in dict.fromkeys([name for structure in job.case.structure for name in structure.names()] + list(loads)):
         row |= {f"{name}_{load}": loads.get(name, {}).get(load, "") for load in LOADS}
     row["residual_over_work"] = summary.get("energy", {}).get("residual_over_work", "")

@@ -21,6 +21,7 @@ from dilatedem.contact.turning import turn_shape
 from dilatedem.jit import device, kernel
 from dilatedem.numerics.vector import store
 from dilatedem.state.storage import MOST_CORNERS
+from dilatedem.step.hits import watch_hits
 from dilatedem.water.floating import submerged_polyhedron, submerged_prism
 
 
@@ -147,3 +148,16 @@ def four_on_four(scratch, normal_a, normal_b, reach, overlap, modulus):
     beyond, (count, now, tilt, _, _) = sqrt(2.0 * reach * overlap), found[6]
     rims = strongest_rim(scratch[now], count, beyond, tilt * beyond, overlap) if found[0] else (0.0, 0.0)
     return found, rims
+
+
+@kernel
+def watch_history(force, dt, clock, model, ids, bodies, pairs, workspace, loads, hits, log):
+    """`watch_hits` of structures that bear the forces (steps, w, 3) [N] one step after the other, from no contact."""
+    for k in range(force.shape[0]):
+        clock.step[0] += 1
+        for h in range(force.shape[1]):
+            for m in range(3):
+                loads.step_load[h, m] = force[k, h, m]
+        watch_hits(0, 0, dt, clock, model, ids, bodies, pairs, workspace, loads, hits, log)
+
+

@@ -30,6 +30,8 @@ from dilatedem.structures.held import name_of
 
 # Contact with a wall boundary is recorded under these names, so that no structure may take them.
 WALL_NAMES = ("wall_x_min", "wall_x_max", "wall_y_min", "wall_y_max")
+# ... and the load on all structures together under this one.
+TOTAL = "total"
 
 
 def _dilation_faults(radius: float, thickness: float) -> list[Fault]:
@@ -199,6 +201,17 @@ class Output(Table):
     checkpoint_interval: NonNegative = key(
         10.0, "s", "Between two saved states, from which `--resume` goes on; 0 saves only where the run ends."
     )
+    hit_threshold: Literal["auto"] | Positive = key(
+        "auto",
+        "N",
+        "Horizontal force from which on a load is an event of hits.csv; `auto`: what would give the mean floe 1 m/s².",
+        allowed='must be "auto" or a number greater than 0',
+    )
+    hit_gap: Positive = key(1.0, "s", "Time between two loads that count from which on they are two events.")
+    hits_in_full: Annotated[int, Field(ge=0, le=100)] = key(
+        5, "", "How many of the highest events are kept at every step in run.h5, with the floes that pushed."
+    )
+    moment_level: float = key(0.0, "m", "Height over the water level about which moments of the loads are stated.")
 
     def faults(self) -> list[Fault]:
         if self.track != "all" and len(set(self.track)) < len(self.track):
@@ -251,7 +264,9 @@ class Case(Table):
         first: dict[str, int] = {}
         held = {name_of(number) for number, body in enumerate(self.body) if body.fixed}
         for i, structure in enumerate(self.structure):
-            if structure.name in WALL_NAMES:
+            if structure.name == TOTAL:
+                found.append((("structure", i, "name"), "is kept for all structures together; choose another"))
+            elif structure.name in WALL_NAMES:
                 found.append((("structure", i, "name"), "is kept for a wall of the domain; choose another"))
             elif structure.name in held:
                 found.append((("structure", i, "name"), "is kept for a fixed [[body]]; choose another"))

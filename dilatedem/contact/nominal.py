@@ -11,10 +11,11 @@ bound it where the outer size of the body ends: the height of a floe's side is i
 
 from math import atan2, inf, pi, sqrt
 
+from dilatedem.contact.search.closest import farthest_vertex
 from dilatedem.contact.search.cone import radius_at
 from dilatedem.geometry.shapes import TaperedShapes
 from dilatedem.jit import by_type, device
-from dilatedem.numerics.vector import cross, dot, load, norm, scale, sub, tangents
+from dilatedem.numerics.vector import add, along, cross, dot, load, norm, scale, sub, tangents
 from dilatedem.state.storage import MOST_CORNERS
 
 #: rows of `scratch` with the half planes of a, by number: u and v of the outward direction, share of the edge that is rounded |
@@ -289,3 +290,30 @@ def nominal_area(vertex, face_normal, shapes, a, b, offset, normal, pa, pb, dept
                 if corners < 3:
                     return 0.0, 0.0
     return _measure(scratch[now], corners, scratch)
+
+
+@device
+def _over(vertex, shapes, body, point, normal):
+    """The point of a core over a place of its surface; point: from the body's centroid, normal: out of the body."""
+    first, last = shapes.vertex_start[body], shapes.vertex_start[body + 1] - 1
+    if last - first > 1:
+        _, height = farthest_vertex(vertex, first, last + 1, normal)
+        return along(point, height - dot(point, normal), normal)
+    start = load(vertex, first)
+    axis, away = sub(load(vertex, last), start), sub(point, start)
+    flat = along(axis, -dot(axis, normal), normal)
+    square = dot(flat, flat)
+    place = min(max(dot(away, flat) / square, 0.0), 1.0) if square > 0.0 else 0.0
+    return along(start, place, axis)
+
+
+@device
+def contact_area(k, vertex, face_normal, shapes, pairs, scratch):
+    """Nominal area [m2] of the open contact k as it stands: at the depth that has crushed, at its overlap where nothing has."""
+    a, b, normal, point = pairs.a[k], pairs.b[k], load(pairs.normal, k), load(pairs.point, k)
+    offset = sub(point, load(pairs.arm, k))
+    pb = offset
+    if shapes.kind[b] == 0:
+        pb = add(offset, _over(vertex, shapes, b, sub(point, offset), scale(-1.0, normal)))
+    pa, depth = _over(vertex, shapes, a, point, normal), pairs.crushed[k] if pairs.crushed[k] > 0.0 else pairs.overlap[k]
+    return nominal_area(vertex, face_normal, shapes, a, b, offset, normal, pa, pb, depth, scratch)[0]

@@ -18,6 +18,7 @@ import numpy as np
 from dilatedem import __version__
 from dilatedem.files.atomic import write_bytes
 from dilatedem.output import dimensions, folder
+from dilatedem.output.kept_hits import write_hits
 from dilatedem.state.modes import MODE_NAMES
 
 CONVENTIONS = (
@@ -125,15 +126,17 @@ class RunArchive:
     floes               of the run's begin
     outlines            of all structures in plan
     about               attributes of the file, such as `title`, `seed`; `current_velocity_m_s` (2,) gives its direction, too
+    hits                the highest load events, by the names of `kept_hits.DATASETS`; dt: time step [s]
 
     Raises ValueError for load maps or statistics of the wrong shape; `update` does so, too.
     """
 
     def __init__(
         self, load_maps: Sequence[LoadMap], contact_statistics: dict[str, ContactStatistics], floes: FloeTable, *,
-        outlines: Sequence[PlanOutline] = (), about: Mapping[str, Any] | None = None,
+        outlines: Sequence[PlanOutline] = (), about: Mapping[str, Any] | None = None, hits: Mapping[str, np.ndarray] | None = None,
+        dt: float = math.nan,
     ):  # fmt: skip
-        changing = _changing(load_maps, contact_statistics)
+        changing = _changing(load_maps, contact_statistics, hits or {})
         self._file = h5py.File(folder.RUN_ARCHIVE, "w", driver="core", backing_store=False)
         _write_about(self._file, about or {})
         maps = self._file.create_group("load_map", track_order=True)
@@ -146,12 +149,17 @@ class RunArchive:
         contacts.attrs["mode_names"] = list(MODE_NAMES)
         for partners, statistics in contact_statistics.items():
             _write_statistics(contacts.create_group(partners), statistics)
+        if hits:
+            write_hits(self._file.create_group("hits"), hits, [outline.structure for outline in outlines], dt)
         self._datasets = {name: self._file[name].id for name in changing}  # h5py's lower level writes ten times as fast
         _write_floes(self._file.create_group("floes"), floes)
 
-    def update(self, load_maps: Sequence[LoadMap], contact_statistics: dict[str, ContactStatistics]) -> None:
-        """Put in what changes in the course of a run: impulses, the time they were summed over, statistics."""
-        changing = _changing(load_maps, contact_statistics)
+    def update(
+        self, load_maps: Sequence[LoadMap], contact_statistics: dict[str, ContactStatistics],
+        hits: Mapping[str, np.ndarray] | None = None,
+    ) -> None:  # fmt: skip
+        """Put in what changes in the course of a run: impulses, the time they were summed over, statistics, load events."""
+        changing = _changing(load_maps, contact_statistics, hits or {})
         for load_map in load_maps:
             self._file["load_map"][load_map.structure].attrs.modify("duration_s", load_map.duration_s)
         for name, values in changing.items():
@@ -220,9 +228,11 @@ def _write_statistics(group: h5py.Group, statistics: ContactStatistics) -> None:
         dimensions.write(group, name, values, *description, [mode])
 
 
-def _changing(load_maps: Sequence[LoadMap], contact_statistics: dict[str, ContactStatistics]) -> dict[str, np.ndarray]:
+def _changing(
+    load_maps: Sequence[LoadMap], contact_statistics: dict[str, ContactStatistics], hits: Mapping[str, np.ndarray]
+) -> dict[str, np.ndarray]:
     """The datasets that change in the course of a run."""
-    found = {}
+    found = {f"hits/{name}": values for name, values in hits.items()}
     for load_map in load_maps:
         bins = (len(load_map.edges) - 1, len(load_map.height_edges) - 1)
         if np.shape(load_map.impulse) != bins:

@@ -12,6 +12,7 @@ from dilatedem.files.whose import is_marked, matching, refuse_foreign, refuse_li
 CASE = "case.toml"
 FORCES = "forces.csv"
 ENERGY = "energy.csv"
+HITS = "hits.csv"
 BODIES = "bodies.csv"
 ICE_COLLECTION = "ice.pvd"
 SNAPSHOTS = "snapshots"
@@ -26,12 +27,12 @@ FIGURES = "figures"
 RUN_MARKS = (CASE, FORCES, CHECKPOINT, SUMMARY)  # any one of them, and the folder holds a run
 #: files that a run replaces and removes, case.toml last: as long as it is there, the folder holds a run that may be replaced
 FILES = (
-    CHECKPOINT, STOPPED, SUMMARY, RUN_ARCHIVE, FORCES, ENERGY, BODIES, ICE_COLLECTION, STRUCTURES, REPORT, CASE,
+    CHECKPOINT, STOPPED, SUMMARY, RUN_ARCHIVE, FORCES, HITS, ENERGY, BODIES, ICE_COLLECTION, STRUCTURES, REPORT, CASE,
 )  # fmt: skip
 #: of what lies in folders, the same
 PARTS = {
     SNAPSHOTS: re.compile(r"ice_\d{6,}\.vtu(\.tmp)?"),
-    FIGURES: re.compile(r"(field|plan|speed|energy|force_.+|peak_.+|load_.+)\.(png|svg)(\.tmp)?"),
+    FIGURES: re.compile(r"(field|plan|speed|energy|force_.+|peak_.+|load_.+|hit_.+)\.(png|svg)(\.tmp)?"),
 }
 
 

@@ -6,7 +6,7 @@ from dilatedem.output.tables import FORCES_COLUMNS, Table
 from dilatedem.output.windows import append, end_open_window, headline_loads, schedule_windows, work_up
 
 #: bytes of a row, about
-ROW = 150.0
+ROW = 270.0
 
 
 class Forces(TableObserver):
@@ -25,7 +25,8 @@ class Forces(TableObserver):
     def open(self, kept: dict | None, since: int) -> None:
         super().open(kept, since)
         self.peaks: dict[str, dict] = kept["peaks"] if kept else {}  # structure -> headline loads
-        self.structures = [structure.name for structure in self.simulation.scene.structures]
+        self.records = [record.name for record in self.simulation.scene.records]
+        self.flow = self.simulation.model.records.flow.tolist()
         self._schedule(max(since, 0))
 
     def _schedule(self, step: int) -> None:
@@ -42,8 +43,8 @@ class Forces(TableObserver):
             end_open_window(self.simulation.windows, self.simulation.state.loads, step)
 
     def refresh(self) -> None:
-        simulation, names = self.simulation, self.structures
-        ended = work_up(simulation.windows, names, simulation.dt, self.peaks)
+        simulation, names = self.simulation, self.records
+        ended = work_up(simulation.windows, names, simulation.dt, self.peaks, self.flow)
         self._schedule(int(simulation.state.clock.step[0]))
         rows = None
         if ended:
@@ -57,4 +58,4 @@ class Forces(TableObserver):
         return {"peaks": {name: dict(peak) for name, peak in self.peaks.items()}}
 
     def summary(self) -> dict:
-        return {"loads": {name: headline_loads(self.peaks.get(name)) for name in self.structures}}
+        return {"loads": {name: headline_loads(self.peaks.get(name)) for name in self.records}}

@@ -6,6 +6,7 @@ import numpy as np
 
 from dilatedem.output import folder
 from dilatedem.output.archive import ContactStatistics, FloeTable, LoadMap, PlanOutline, RunArchive, direction
+from dilatedem.output.kept_hits import kept_hits
 from dilatedem.output.observer import Observer
 from dilatedem.state.ledger import TERMS
 from dilatedem.state.loads import HEIGHT_BINS, PLACE_BINS
@@ -19,17 +20,21 @@ class Record(Observer):
     _archive: RunArchive | None = None  # until it is written first
 
     def save(self) -> None:
-        self.background.put(self._write, self._load_maps(), self._contact_statistics())
+        simulation = self.simulation
+        hits = kept_hits(simulation.state.hits, simulation.dt, simulation.scene.orientation)
+        self.background.put(self._write, self._load_maps(), self._contact_statistics(), hits)
 
-    def _write(self, maps: list[LoadMap], statistics: dict[str, ContactStatistics]) -> None:
+    def _write(self, maps: list[LoadMap], statistics: dict[str, ContactStatistics], hits: dict[str, np.ndarray]) -> None:
         """In the background, as laying it out takes a while, too."""
         if self._archive:
-            self._archive.update(maps, statistics)
+            self._archive.update(maps, statistics, hits)
         else:
             case = self.simulation.case
             about = {"title": case.title, "seed": case.field.seed, "current_velocity_m_s": self._current()}
             about |= {"energy_terms": [term.name for term in TERMS], "energy_labels": [term.label for term in TERMS]}
-            self._archive = RunArchive(maps, statistics, self._floe_table(), outlines=self._outlines(), about=about)
+            self._archive = RunArchive(
+                maps, statistics, self._floe_table(), outlines=self._outlines(), about=about, hits=hits, dt=self.simulation.dt
+            )
         self._archive.write(self.out / folder.RUN_ARCHIVE)
 
     def _current(self) -> tuple[float, float]:

@@ -17,13 +17,19 @@ from dilatedem.files.atomic import open_file, write_whole
 FORCES_COLUMNS = (
     "time_s", "structure", "fx_N", "fy_N", "fz_N", "mx_Nm", "my_Nm", "mz_Nm",
     "fx_min_N", "fx_max_N", "fy_min_N", "fy_max_N", "fh_max_N", "contacts",
+    "along_N", "across_N", "along_min_N", "along_max_N", "across_min_N", "across_max_N",
+    "mx_min_Nm", "mx_max_Nm", "my_min_Nm", "my_max_Nm", "mz_min_Nm", "mz_max_Nm", "mh_max_Nm",
+)  # fmt: skip
+HITS_COLUMNS = (
+    "structure", "start_s", "rise_s", "duration_s", "peak_N", "peak_time_s", "impulse_Ns", "body", "mode", "area_m2", "pressure_Pa",
+    "crushed_m", "bodies",
 )  # fmt: skip
 BODIES_COLUMNS = (
     "time_s", "body", "x_m", "y_m", "z_m", "qw", "qx", "qy", "qz", "vx_m_s", "vy_m_s", "vz_m_s",
     "wx_rad_s", "wy_rad_s", "wz_rad_s",
 )  # fmt: skip
 
-TEXT_COLUMNS = frozenset({"structure"})
+TEXT_COLUMNS = frozenset({"structure", "mode"})
 # Nine digits: below the error of any figure in the tables; times stay readable (0.3, not 0.30000000000000004)
 # and a row takes half the bytes of the shortest exact form. Body numbers and counts come out whole.
 NUMBER_FORMAT = "%.9g"

@@ -1,5 +1,6 @@
 """Windows of forces.csv: when they end, and what becomes of those that have ended, many at once."""
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -7,7 +8,14 @@ import numpy as np
 from dilatedem.output.schedule import Schedule
 from dilatedem.output.tables import Table
 from dilatedem.state.clock import NEVER
-from dilatedem.state.loads import Loads, Windows
+from dilatedem.state.loads import EXTREMES, Loads, Windows
+
+#: extremes before this one stand before the number of contacts in forces.csv, the others behind it
+ALONG = EXTREMES.index("along_min_N")
+#: of a run, what means are taken of
+SUMS = ("fx_sum", "fy_sum", "along_sum", "across_sum")
+#: extremes whose times are told, and how those are called
+RESULTANTS = {"fh_max_N": "fh_max_time_s", "mh_max_Nm": "mh_max_time_s"}
 
 
 def schedule_windows(windows: Windows, schedule: Schedule, step: int) -> int:
@@ -29,62 +37,74 @@ def end_open_window(windows: Windows, loads: Loads, step: int) -> None:
 
 
 class Ended(NamedTuple):
-    """What forces.csv says of n windows that have ended on s structures."""
+    """What forces.csv says of n windows that have ended, of s records."""
 
     times: list[float]  # (n,) s
-    numbers: np.ndarray  # (n, s, 12) columns of forces.csv, without time and structure
+    numbers: np.ndarray  # (n, s, 25) columns of forces.csv, without time and structure
 
 
-def work_up(windows: Windows, names: list[str], dt: float, peaks: dict[str, dict]) -> Ended | None:
+def work_up(windows: Windows, names: list[str], dt: float, peaks: dict[str, dict], flow: Sequence[float]) -> Ended | None:
     """Bring the windows that wait into the headline loads, structure -> figures; none waits afterwards.
 
-    names: of the structures, in order; dt: time step [s]. Worked up among many a window takes 3 us, on its own 11: NumPy takes as
-    long for a number as for a hundred. Returns what is left to be written, in copies.
+    names: of the records, in order; dt: time step [s]; flow (2,): direction of the current. Worked up among many a window takes
+    3 us, on its own 11: NumPy takes as long for a number as for a hundred. Returns what is left to be written, in copies.
     """
     count = int(windows.count[0])
     if count == 0:
         return None
     times, steps = [step * dt for step in windows.due[:count].tolist()], windows.steps[:count]
     mean, contacts = windows.sum[:count] / steps[:, None, None], windows.contacts[:count] / steps[:, None]
-    numbers = np.concatenate([mean, windows.extreme[:count], contacts[:, :, None]], axis=2)
+    extreme = windows.extreme[:count]
+    numbers = np.concatenate([
+        mean, extreme[:, :, :ALONG], contacts[:, :, None], sideways(mean, flow), extreme[:, :, ALONG:],
+    ], axis=2)  # fmt: skip
+    sums = np.concatenate([windows.sum[:count, :, :2], sideways(windows.sum[:count], flow)], axis=2)
     for s, name in enumerate(names):
         peak = peaks.setdefault(name, {
-            "fx_max_N": 0.0, "fx_min_N": 0.0, "fy_max_N": 0.0, "fy_min_N": 0.0, "fh_max_N": 0.0, "fh_max_time_s": 0.0,
-            "fx_sum": 0.0, "fy_sum": 0.0, "steps": 0, "touched": False,
+            **dict.fromkeys((*EXTREMES, "fh_max_time_s", "mh_max_time_s", *SUMS), 0.0), "steps": 0, "touched": False,
         })  # fmt: skip
         peak["touched"] = peak["touched"] or bool(windows.contacts[:count, s].any())
-        _note(peak, times, windows.extreme[:count, s], windows.sum[:count, s], int(steps.sum()))
+        _note(peak, times, extreme[:, s], sums[:, s], int(steps.sum()))
     windows.count[0] = 0
     return Ended(times, numbers)
 
 
+def sideways(force: np.ndarray, flow: Sequence[float]) -> np.ndarray:
+    """(n, s, 2) forces along the current and across it, positive to its left, of (n, s, 2 or more)."""
+    fx, fy = force[:, :, 0], force[:, :, 1]
+    return np.stack([flow[0] * fx + flow[1] * fy, flow[0] * fy - flow[1] * fx], axis=2)
+
+
 def append(ended: Ended, names: list[str], table: Table) -> None:
-    """Append the rows of windows on structures of these names to forces.csv."""
+    """Append the rows of windows of records of these names to forces.csv."""
     table.append_columns([
         [time_s for time_s in ended.times for _ in names], names * len(ended.times),
         *np.moveaxis(ended.numbers, 2, 0).reshape(ended.numbers.shape[2], -1).tolist(),
     ])  # fmt: skip
 
 
-def _note(peak: dict, times: list[float], extreme: np.ndarray, window_sum: np.ndarray, steps: int) -> None:
-    """Bring windows of one structure into its headline loads."""
-    fx_min, fx_max, fy_min, fy_max, fh_max = extreme.T.tolist()
-    peak["fx_min_N"], peak["fx_max_N"] = min(peak["fx_min_N"], *fx_min), max(peak["fx_max_N"], *fx_max)
-    peak["fy_min_N"], peak["fy_max_N"] = min(peak["fy_min_N"], *fy_min), max(peak["fy_max_N"], *fy_max)
-    highest = max(fh_max)
-    if highest > peak["fh_max_N"]:
-        peak["fh_max_N"], peak["fh_max_time_s"] = highest, times[fh_max.index(highest)]
-    for fx, fy in window_sum[:, :2].tolist():  # one after the other: a sum that is the same however many windows come at once
-        peak["fx_sum"] += fx
-        peak["fy_sum"] += fy
+def _note(peak: dict, times: list[float], extreme: np.ndarray, sums: np.ndarray, steps: int) -> None:
+    """Bring windows of one record into its headline loads."""
+    for name, values in zip(EXTREMES, extreme.T.tolist(), strict=True):
+        if "_min_" in name:
+            peak[name] = min(peak[name], *values)
+            continue
+        highest = max(values)
+        if highest > peak[name]:
+            peak[name] = highest
+            if name in RESULTANTS:
+                peak[RESULTANTS[name]] = times[values.index(highest)]
+    for window in sums.tolist():  # one after the other: a sum that is the same however many windows come at once
+        for name, value in zip(SUMS, window, strict=True):
+            peak[name] += value
     peak["steps"] += steps
 
 
 def headline_loads(peak: dict | None) -> dict:
-    """What summary.json says of one structure; None = it has no window yet. A load that never was has no time."""
-    names = ("fx_max_N", "fx_min_N", "fy_max_N", "fy_min_N", "fh_max_N", "fh_max_time_s")
+    """What summary.json says of one record; None = it has no window yet. A load that never was has no time."""
     if peak is None:
-        return dict.fromkeys((*names, "fx_mean_N", "fy_mean_N"), 0.0) | {"fh_max_time_s": None, "touched": False}
-    steps, at = max(peak["steps"], 1), peak["fh_max_time_s"] if peak["fh_max_N"] > 0.0 else None
-    means = {"fx_mean_N": peak["fx_sum"] / steps, "fy_mean_N": peak["fy_sum"] / steps}
-    return {name: peak[name] for name in names} | means | {"fh_max_time_s": at, "touched": peak["touched"]}
+        peak = dict.fromkeys((*EXTREMES, *SUMS), 0.0) | {"steps": 0, "touched": False}
+    steps = max(peak["steps"], 1)
+    means = {f"{name.removesuffix('_sum')}_mean_N": peak[name] / steps for name in SUMS}
+    times = {time: peak[time] if peak[name] > 0.0 else None for name, time in RESULTANTS.items()}
+    return {name: peak[name] for name in EXTREMES} | means | times | {"touched": peak["touched"]}

@@ -16,18 +16,19 @@ from dilatedem.post import canvas, report
 from dilatedem.post.canvas import Drawing
 from dilatedem.post.figures_energy import energy_figure, residual_share
 from dilatedem.post.figures_field import field_figure, plan_figure, speed_figure
+from dilatedem.post.figures_hits import hit_figure
 from dilatedem.post.figures_loads import force_figure, peak_figure
 from dilatedem.post.figures_map import load_around_figure, load_map_figure
 from dilatedem.post.figures_sweep import sweep_figure
 from dilatedem.post.harm import COMPARISON_TABLE, refuse_harm, refuse_harm_beside
-from dilatedem.post.loads import angular_statistics, hit_statistics, hit_threshold, load_statistics
+from dilatedem.post.loads import angular_statistics, event_statistics, hit_statistics, hit_threshold, load_statistics
 from dilatedem.post.read import RunFolder, open_run
 from dilatedem.post.snapshots import snapshots_at
 from dilatedem.post.sweeps import Sweep, compare_runs, read_sweep, write_table
 from dilatedem.results.doubts import doubts
 from dilatedem.results.files import is_run, is_sweep, read_summary
 from dilatedem.results.snapshots import Snapshot
-from dilatedem.results.tables import Table, row_count
+from dilatedem.results.tables import row_count
 
 MOMENTS = (0.0, 0.5, 1.0)  # of the run's time that the plan views show, as in Liu 2015, Fig. 10
 
@@ -114,7 +115,7 @@ def run_drawings(run: RunFolder) -> list[Drawing]:
     for name, history in run.forces.items():
         if not history["fh_max_N"].any():
             continue  # never touched
-        hits = hits_on(run, history)
+        hits = hits_on(run, name)
         drawings += [force_figure(name, history, hits), peak_figure(name, history, run.current, hits)]
         load_map = run.load_maps.get(name)
         if load_map is not None and load_map.place == "angle":
@@ -122,6 +123,8 @@ def run_drawings(run: RunFolder) -> list[Drawing]:
         if load_map is not None:
             outline = run.outlines[name].outline if name in run.outlines and run.outlines[name].bounded else None
             drawings.append(load_map_figure(load_map, upstream, afloat=run.afloat, outline=outline))
+    if run.floes is not None:
+        drawings += [hit_figure(run, hit, place) for place, hit in enumerate(run.kept_hits, start=1)]
     if row_count(run.energy):
         drawings.append(energy_figure(run.energy, run.energy_labels))
     return [drawing for drawing in drawings if drawing is not None]
@@ -134,9 +137,17 @@ def initial_outlines(run: RunFolder, snapshots: list[Snapshot]) -> list[np.ndarr
     return snapshots[0].outlines if snapshots and snapshots[0].time == 0.0 else []
 
 
-def hits_on(run: RunFolder, history: Table) -> dict[str, Any]:
-    """What counts as a hit by the floes of this run, and how many there were on one structure."""
-    return hit_statistics(history, hit_threshold(None if run.floes is None else run.floes.mass))
+def hits_on(run: RunFolder, name: str) -> dict[str, Any]:
+    """What counts as a hit in this run, and how many there were on one structure, told by its windows.
+
+    A run that tells load events itself says what counts; else the floes do.
+    """
+    told, history = run.summary.get("hits") or {}, run.forces[name]
+    threshold, gap = told.get("threshold_N"), told.get("gap_s")
+    if threshold is None or gap is None:
+        return hit_statistics(history, hit_threshold(None if run.floes is None else run.floes.mass))
+    found = hit_statistics(history, threshold, gap)
+    return found | event_statistics(run.hits[name]) if name in run.hits else found
 
 
 def run_statistics(run: RunFolder) -> dict[str, Any]:
@@ -145,7 +156,7 @@ def run_statistics(run: RunFolder) -> dict[str, Any]:
     for name, history in run.forces.items():
         loads[name] = load_statistics(history, run.current)
         if row_count(history):
-            loads[name]["hits"] = hits_on(run, history)
+            loads[name]["hits"] = hits_on(run, name)
         load_map = run.load_maps.get(name)
         if load_map is not None and load_map.place == "angle":
             loads[name]["around"] = angular_statistics(load_map, run.upstream_angle)

@@ -64,6 +64,10 @@ KEYS: dict[str, tuple[str, str]] = {
     "output.energy_interval": ("energy interval", "s"),
     "output.track_interval": ("track interval", "s"),
     "output.checkpoint_interval": ("checkpoint interval", "s"),
+    "output.moment_level": ("level of moments", "m"),
+    "output.hit_threshold": ("least force of a load event", "N"),
+    "output.hit_gap": ("gap between load events", "s"),
+    "output.hits_in_full": ("load events kept at every step", ""),
 }
 
 
@@ -102,6 +106,11 @@ def number(value: float, digits: int = 4) -> str:
         return without_zeros(f"{value:.{decimals}f}")
     mantissa, exponent = f"{value:.{digits - 1}e}".split("e")
     return f"{without_zeros(mantissa)} × 10{str(int(exponent)).translate(SUPERSCRIPT)}"
+
+
+def kilo(value: float) -> str:
+    """A thousandth of a value."""
+    return number(value / 1e3, 3)
 
 
 def without_zeros(text: str) -> str:

@@ -18,6 +18,8 @@ HIT_ACCELERATION = 1.0
 HIT_FORCE = 1000.0
 #: s for which the force stays below the threshold between two hits, at least
 HIT_GAP = 1.0
+#: MPa of mean nominal pressure of which is told how many events exceed them: ice crushes at 1 to 3 MPa
+PRESSURES = (1, 2, 5)
 #: how angles run
 SENSE = "counter-clockwise seen from above"
 
@@ -69,8 +71,19 @@ def load_statistics(history: Table, current: tuple[float, float] = (0.0, 0.0)) -
     if any(current):
         for side, force in zip(("along_current", "across_current"), along_and_across(history, current), strict=True):
             statistics[side] = {"mean_N": float(np.average(force, weights=lengths)), "impulse_Ns": float(np.sum(force * lengths))}
+            statistics[side] |= extremes(history, side.removesuffix("_current"), "N")
+    if "mh_max_Nm" in history:
+        overturning = history["mh_max_Nm"]
+        statistics["moment"] = {"peak_Nm": float(overturning.max()), "peak_time_s": float(time[int(np.argmax(overturning))])}
+        statistics["moment"] |= {axis: extremes(history, axis, "Nm") for axis in ("mx", "my", "mz")}
     statistics["fx"]["quantiles_of_window_maxima_N"] = quantiles(history["fx_max_N"])
     return statistics
+
+
+def extremes(history: Table, quantity: str, unit: str) -> dict[str, float]:
+    """Lowest and highest of any step; nothing where forces.csv does not hold them."""
+    low, high = history.get(f"{quantity}_min_{unit}"), history.get(f"{quantity}_max_{unit}")
+    return {} if low is None or high is None else {f"min_{unit}": float(low.min()), f"max_{unit}": float(high.max())}
 
 
 def quantiles(values: np.ndarray) -> dict[str, float]:
@@ -109,6 +122,22 @@ def hit_statistics(history: Table, threshold: float, gap: float = HIT_GAP) -> di
         "mean_duration_s": float(np.mean(duration)) if len(duration) else 0.0,
         "longest_duration_s": float(np.max(duration, initial=0.0)),
         "mean_time_above_s": float(np.sum(elapsed[ends] - elapsed[starts]) / len(duration)) if len(duration) else 0.0,
+    }
+
+
+def event_statistics(hits: Table) -> dict[str, Any]:
+    """What hits.csv says of the events on one structure, at every step, where `hit_statistics` counts windows.
+
+    hits: columns of hits.csv, each (n,). Shares are of events whose leading contact has a mean nominal pressure above so many MPa.
+    """
+    count, pressure = row_count(hits), hits["pressure_Pa"]
+    return {
+        "count": count,
+        "mean_duration_s": float(np.mean(hits["duration_s"])),
+        "longest_duration_s": float(np.max(hits["duration_s"])),
+        "median_rise_s": float(np.median(hits["rise_s"])),
+        "median_pressure_Pa": float(np.median(pressure)),
+        **{f"share_above_{limit}_MPa": float(np.mean(pressure > 1e6 * limit)) for limit in PRESSURES},
     }
 
 

@@ -84,8 +84,14 @@ def load_words(statistics: dict) -> str:
         f"peak {number(fh['peak_N'] / 1e3, 3)} kN at {number(fh['peak_time_s'], 5)} s, "
         f"{mean}, along x {number(fx['min_N'] / 1e3, 3)} to {number(fx['max_N'] / 1e3, 3)} kN, "
         f"along y {number(fy['min_N'] / 1e3, 3)} to {number(fy['max_N'] / 1e3, 3)} kN, "
-        f"in contact {number(100.0 * statistics['contact_time_fraction'], 3)} % of the time"
+        f"{_moment_words(statistics)}in contact {number(100.0 * statistics['contact_time_fraction'], 3)} % of the time"
     )
+
+
+def _moment_words(statistics: dict) -> str:
+    """The highest overturning moment; nothing of a run that did not record it."""
+    moment = statistics.get("moment")
+    return f"overturning moment up to {number(moment['peak_Nm'] / 1e3, 3)} kN m, " if moment else ""
 
 
 def energy_words(energy: dict) -> str:

@@ -9,6 +9,7 @@ from typing import Any
 
 from dilatedem.results.archive import ContactStatistics, FloeTable, LoadMap, PlanOutline, read_archive
 from dilatedem.results.files import list_snapshots, read_case, read_summary
+from dilatedem.results.hits import KeptHit
 from dilatedem.results.soundness import require_table
 from dilatedem.results.tables import Table, read_table, row_count, split_by_structure
 
@@ -28,6 +29,8 @@ class RunFolder:
     floes: FloeTable | None = None
     outlines: dict[str, PlanOutline] = field(default_factory=dict)  # by structure
     energy_labels: dict[str, str] = field(default_factory=dict)  # terms of energy.csv in words
+    hits: dict[str, Table] = field(default_factory=dict)  # load events, by structure
+    kept_hits: list[KeptHit] = field(default_factory=list)  # the highest of them at every step
 
     @property
     def title(self) -> str:
@@ -58,6 +61,11 @@ class RunFolder:
     def wind(self) -> tuple[float, float]:
         """Velocity of the wind [m/s]; zero where the water is switched off, out of which floes would stand."""
         return self._velocity_of("wind")
+
+    @property
+    def moment_level(self) -> float:
+        """Height [m] over the water level about which moments are stated."""
+        return float(self.case.get("output", {}).get("moment_level", 0.0))
 
     @property
     def flows(self) -> dict[str, tuple[float, float]]:
@@ -115,4 +123,6 @@ def open_run(folder: Path) -> RunFolder:
         floes=archive.floes,
         outlines=archive.outlines,
         energy_labels=archive.energy_labels,
+        hits=split_by_structure(_sound(folder / "hits.csv"), case),
+        kept_hits=archive.hits,
     )

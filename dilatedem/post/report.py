@@ -11,8 +11,9 @@ import numpy as np
 
 from dilatedem.files.atomic import write_text
 from dilatedem.post.canvas import Drawing
+from dilatedem.post.events import event_rows, pressure_words
 from dilatedem.post.figures_sweep import group_runs
-from dilatedem.post.labels import axis_label, describe_key, flatten, number, show
+from dilatedem.post.labels import axis_label, describe_key, flatten, kilo, number, show
 from dilatedem.post.overview import status_words
 from dilatedem.post.read import RunFolder
 from dilatedem.post.sweeps import Sweep, relative, value_words
@@ -29,7 +30,7 @@ LIMITS = (
     "the whole wetted surface of a floe: about ten times the drag of a formula for the frontal area.",
     "Peaks last tens of milliseconds, and their height and number vary from one random field to the next: "
     "judge by several seeds, not by one run.",
-    "Durations of hits are counted in whole windows of forces.csv, too long by up to two windows each.",
+    "Times of hits above their threshold are counted in whole windows of forces.csv, too long by up to two windows each.",
 )
 LIMITS_OF_LIU2015 = (
     "Contact laws are those of Liu, Long & Ji (2015), mode by mode. They jump where a contact changes its "
@@ -58,8 +59,9 @@ def write_run_report(run: RunFolder, statistics: dict[str, Any], figures: list[t
         doubts=statistics["doubts"],
         loads=[
             {
-                "name": name, "rows": load_rows(entry), "quantiles": quantile_table(entry), "step": step_rows(run.summary, name),
-                "one_hit": ONE_HIT,
+                "name": name, "rows": load_rows(entry, run.moment_level), "quantiles": quantile_table(entry),
+                "step": step_rows(run.summary, name), "one_hit": ONE_HIT, "events": event_rows(run, name),
+                "pressures": pressure_words(run, name, entry),
             }  # fmt: skip
             for name, entry in statistics["loads"].items()
         ],
@@ -103,8 +105,11 @@ def inline(figures: list[tuple[Drawing, str]]) -> list[dict[str, Any]]:
     return [{"title": drawing.title, "caption": drawing.caption, "name": drawing.name, "svg": svg} for drawing, svg in figures]
 
 
-def load_rows(statistics: dict[str, Any]) -> Rows:
-    """What, value and unit of the load on one structure; none where there is nothing to tell."""
+def load_rows(statistics: dict[str, Any], level: float = 0.0) -> Rows:
+    """What, value and unit of the load on one structure; none where there is nothing to tell.
+
+    level: height [m] about which moments are stated.
+    """
     if not statistics["windows"] or statistics["fh"]["peak_N"] == 0.0:
         return []
     fh, fx, fy = statistics["fh"], statistics["fx"], statistics["fy"]
@@ -122,13 +127,23 @@ def load_rows(statistics: dict[str, Any]) -> Rows:
     for side, words in (("along_current", "along the current"), ("across_current", "across the current, positive to its left")):
         if side in statistics:
             rows.append([f"mean force {words}", kilo(statistics[side]["mean_N"]), "kN"])
+            if "max_N" in statistics[side]:
+                entry = statistics[side]
+                rows.append([f"force {words}, lowest to highest", f"{kilo(entry['min_N'])} to {kilo(entry['max_N'])}", "kN"])
+    if "moment" in statistics:
+        moment, about = statistics["moment"], f"z = {number(level)} m"
+        when = f"kN m, at {number(moment['peak_time_s'], 5)} s"
+        rows.append([f"highest overturning moment about {about}", kilo(moment["peak_Nm"]), when])
+        for axis in ("mx", "my", "mz"):
+            span = f"{kilo(moment[axis]['min_Nm'])} to {kilo(moment[axis]['max_Nm'])}"
+            rows.append([f"moment about {axis[1]} at {about}, lowest to highest", span, "kN m"])
     rows.append(["share of time in contact", number(100.0 * statistics["contact_time_fraction"], 3), "%"])
     if "hits" in statistics:
         hits = statistics["hits"]
         apart = f"apart by {number(hits['gap_s'])} s or more below that"
         rows += [
             [f"separate hits: horizontal force of at least {kilo(hits['threshold_N'])} kN, {apart}", str(hits["count"]), ""],
-            ["mean duration of these, from the first window above to the last", number(hits["mean_duration_s"], 3), "s"],
+            ["mean duration of these, from the first load above to the last", number(hits["mean_duration_s"], 3), "s"],
             ["longest of them", number(hits["longest_duration_s"], 3), "s"],
             ["mean time of a hit above that force", number(hits["mean_time_above_s"], 3), "s"],
         ]
@@ -175,10 +190,6 @@ def quantile_table(statistics: dict[str, Any]) -> dict[str, Any]:
         rows.append([name, *[kilo(value) for value in quantiles.values()]])
     window = number(1e3 * statistics["window_s"], 3)
     return {"head": [f"{share} %" for share in quantiles], "rows": rows, "window": window}
-
-
-def kilo(value: float) -> str:
-    return number(value / 1e3, 3)
 
 
 def energy_rows(run: RunFolder, statistics: dict[str, Any]) -> Rows:

@@ -20,7 +20,7 @@ from dilatedem.results.files import is_run
 from dilatedem.results.soundness import damaged
 from dilatedem.results.sweep import locate, parse_value, read_rows
 
-LOAD_COLUMN = re.compile(r"(?P<structure>.+)_(?P<quantity>f[xyzh]_(?:max|min|mean))_N")
+LOAD_COLUMN = re.compile(r"(?P<structure>.+)_(?P<quantity>(?:f[xyzh]|along|across|m[zh])_(?:max|min|mean))_Nm?")
 SEED_KEY = "field.seed"
 # Keys in which two runs may differ without being different experiments.
 INCIDENTAL = re.compile(r"(title|version|output\..*)$")
@@ -120,7 +120,7 @@ def compare_runs(runs: list[RunFolder], folder: Path) -> Sweep:
             folder=run.path,
             status=str(run.summary.get("status", "unknown")),
             message=str(run.summary.get("message") or ""),
-            loads={name: headline(load_statistics(history)) for name, history in run.forces.items()},
+            loads={name: headline(load_statistics(history, run.current)) for name, history in run.forces.items()},
             residual_over_work=to_float(run.summary.get("energy", {}).get("residual_over_work")),
         )
         for run, case in zip(runs, flat, strict=True)
@@ -140,15 +140,32 @@ def headline(statistics: dict[str, Any]) -> dict[str, float]:
         "fy_max": statistics["fy"]["max_N"],
         "fy_min": statistics["fy"]["min_N"],
         "fh_max": statistics["fh"]["peak_N"],
-    }
+    } | _sideways(statistics)
+
+
+def _sideways(statistics: dict[str, Any]) -> dict[str, float]:
+    """Of the same, forces along and across the current, and moments, where forces.csv holds their extremes."""
+    if "moment" not in statistics:
+        return {}
+    along, across = statistics.get("along_current", statistics["fx"]), statistics.get("across_current", statistics["fy"])
+    return {
+        "along_max": along["max_N"], "along_mean": along["mean_N"], "across_max": across["max_N"], "across_min": across["min_N"],
+        "mh_max": statistics["moment"]["peak_Nm"], "mz_max": statistics["moment"]["mz"]["max_Nm"],
+        "mz_min": statistics["moment"]["mz"]["min_Nm"],
+    }  # fmt: skip
 
 
 def write_table(sweep: Sweep, path: Path) -> None:
     """The runs as a CSV file with the columns of sweep.csv."""
-    quantities = ("fx_max", "fx_mean", "fy_max", "fy_min", "fh_max")
+    quantities = (
+        "fx_max", "fx_mean", "fy_max", "fy_min", "fh_max", "along_max", "along_mean", "across_max", "across_min", "mh_max",
+        "mz_max", "mz_min",
+    )  # fmt: skip
     columns = [(name, quantity) for name in sweep.structures for quantity in quantities]
     header = [*sweep.keys, "seed", "run", "status"]
-    header += [f"{name}_{quantity}_N" for name, quantity in columns] + ["residual_over_work", "message"]
+    units = ["Nm" if quantity.startswith("m") else "N" for _, quantity in columns]
+    header += [f"{name}_{quantity}_{unit}" for (name, quantity), unit in zip(columns, units, strict=True)]
+    header += ["residual_over_work", "message"]
     text = io.StringIO(newline="")
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(header)

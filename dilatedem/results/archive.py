@@ -11,6 +11,7 @@ from typing import Any
 import h5py
 import numpy as np
 
+from dilatedem.results.hits import KeptHit, read_hits
 from dilatedem.results.soundness import damaged, require_array
 from dilatedem.results.tables import Table
 
@@ -72,6 +73,7 @@ class Archive:
     floes: FloeTable | None = None
     outlines: dict[str, PlanOutline] = field(default_factory=dict)  # by structure
     energy_labels: dict[str, str] = field(default_factory=dict)  # terms of energy.csv in words
+    hits: list[KeptHit] = field(default_factory=list)  # the highest load events, the highest first
 
 
 def read_archive(path: Path) -> Archive:
@@ -100,6 +102,8 @@ def _read(archive: h5py.File) -> Archive:
             found.contacts[pair] = read_contacts(archive["contacts"], group)
     if "floes" in archive:
         found.floes = read_floes(archive["floes"])
+    if "hits" in archive:
+        found.hits = read_hits(archive["hits"], [as_text(name) for name in archive["contacts"].attrs["mode_names"]])
     for name, group in groups_with(archive.get("structures", {}), "outline_m"):
         outline = require_array(group["outline_m"][()], (None, 2), f"the outline of {name}")
         found.outlines[name] = PlanOutline(outline, bool(group.attrs["bounded"]))

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     import pandas
     import xarray
 
+    from dilatedem.results.hits import KeptHit
     from dilatedem.results.snapshots import Snapshot
 
 
@@ -67,8 +68,13 @@ class Run:
 
     @cached_property
     def hits(self) -> pandas.DataFrame:
-        """hits.csv: a row per separate load event."""
-        return read_frame(self.path / "hits.csv")
+        """hits.csv: a row per separate load event of a structure, in the order in which they ended."""
+        return self._frame("hits.csv")
+
+    @property
+    def hits_in_full(self) -> list[KeptHit]:
+        """The highest load events, the highest first: the force at every step around the peak, and the floes that pushed."""
+        return self._archive.hits
 
     @cached_property
     def structures(self) -> pandas.DataFrame:

@@ -28,9 +28,15 @@ REQUIRED = {
     ),
     "energy.csv": ("time_s", "residual"),
     "bodies.csv": ("time_s", "body"),
+    "hits.csv": (
+        "structure", "start_s", "rise_s", "duration_s", "peak_N", "peak_time_s", "impulse_Ns", "body", "mode", "area_m2",
+        "pressure_Pa", "crushed_m", "bodies",
+    ),
 }  # fmt: skip
 #: what tells rows of one time apart
-SERIES = {"forces.csv": "structure", "bodies.csv": "body"}
+SERIES = {"forces.csv": "structure", "bodies.csv": "body", "hits.csv": "structure"}
+#: the column of times, which go on from row to row of a series
+TIME = {"hits.csv": "start_s"}
 
 Check = Callable[[Any], str]  # what is wrong with a value, empty where nothing is
 
@@ -113,6 +119,9 @@ _SUMMARY = _table(
     steps=_whole, dt_s=_maybe(_length), dt_critical_s=_maybe(_length), simulated_s=_figure, duration_s=_figure, wall_s=_figure,
     compile_s=_figure, threads=_whole, loads=_table(rest=_table(rest=_maybe(lambda value: _truth(value) and _number(value)))),
     energy=_table(rest=_figure), contact=_table(),
+    hits=_table(
+        threshold_N=_figure, gap_s=_figure, meaning=_text, structures=_table(rest=_table(rest=_figure)),
+    ),
     error_check=_table(
         message=_text, structure=_maybe(_text), start_s=_figure, end_s=_figure, change=_maybe(_table(rest=_figure)), wall_s=_figure
     ),
@@ -164,13 +173,14 @@ def require_table(table: Table, path: Path) -> Table:
         wrong = np.flatnonzero(~np.isfinite(column)) if column.dtype.kind in "iuf" else _not_numbers(column)
         if len(wrong):
             raise damaged(path, f"row {wrong[0] + 1}: {name} = {str(column[wrong[0]])[:40]} is no finite number")
+    time = TIME.get(path.name, "time_s")
     series = table.get(SERIES.get(path.name, ""), np.zeros(row_count(table)))
     for which in dict.fromkeys(series.tolist()):
         rows = np.flatnonzero(series == which)
-        back = np.flatnonzero(np.diff(table["time_s"][rows]) <= 0.0)
+        back = np.flatnonzero(np.diff(table[time][rows]) <= 0.0)
         if len(back):
-            raise damaged(path, f"row {rows[back[0] + 1] + 1}: time_s does not go on from the row before")
-    if table["time_s"].min() < 0.0:
+            raise damaged(path, f"row {rows[back[0] + 1] + 1}: {time} does not go on from the row before")
+    if table[time].min() < 0.0:
         raise damaged(path, "a time is negative")
     return table
 

@@ -20,8 +20,8 @@ Table = dict[str, np.ndarray]  # column name -> (rows,) float64, or object where
 
 #: columns that hold names: a structure may be called `1`
 TEXT_COLUMNS = frozenset({"structure", "mode"})
-#: columns that hold numbers of bodies; all other numbers are float64, whatever a run happened to write
-WHOLE_COLUMNS = frozenset({"body"})
+#: columns that hold numbers of bodies, or how many; all other numbers are float64, whatever a run happened to write
+WHOLE_COLUMNS = frozenset({"body", "bodies"})
 
 
 def row_count(table: Table) -> int:
@@ -95,11 +95,13 @@ def read_frame(path: Path) -> pandas.DataFrame:
 
 
 def split_by_structure(table: Table, case: dict[str, Any]) -> dict[str, Table]:
-    """Rows of forces.csv by the structure they belong to, structures in the order of the case, each before its parts."""
+    """Rows of a table by the structure they belong to, structures in the order of the case, each before its parts,
+    then their total, then the others."""
     if not row_count(table) or "structure" not in table:
         return {}
     label = table["structure"]
     known = [name for structure in case.get("structure", []) for name in _names(structure)]
+    known.append("total")  # all of them together
     names = [name for name in known if name in label] + sorted(set(label) - set(known))
     numeric = [name for name in table if name != "structure"]
     return {name: {column: table[column][label == name] for column in numeric} for name in names}

@@ -21,6 +21,7 @@ from dilatedem.output.observer import Observer
 from dilatedem.output.schedule import Schedule
 from dilatedem.state.bodies import Bodies
 from dilatedem.state.clock import NEVER, Status, clock_at
+from dilatedem.state.hits import no_hits
 from dilatedem.state.ledger import empty_ledger
 from dilatedem.state.loads import Windows, empty_loads
 from dilatedem.state.pairs import PackedPairs, packed, unpacked
@@ -73,6 +74,7 @@ class Watch:
 
     dt: float  # s
     span: int = 1  # steps after which all bodies stand at one instant
+    structures: int | None = None  # the records that are no sums, the first so many; None: all
     peak: float = 0.0  # N
     structure: int = -1  # its number, -1 = none was touched
     until: int = 0  # step of the look that saw the peak
@@ -91,7 +93,7 @@ class Watch:
         state: at this moment; windows: of forces.csv, of which those from the number `first` on have ended since the last look
         """
         step, count = int(state.clock.step[0]), int(windows.count[0])
-        highest = windows.extreme[first:count, :, 4]
+        highest = windows.extreme[first:count, : self.structures, 4]
         if highest.max(initial=0.0) > self.peak:
             for end, loads in zip(windows.due[first:count].tolist(), highest.tolist(), strict=True):
                 self._note(loads, end)
@@ -99,7 +101,7 @@ class Watch:
             self.seen = int(windows.due[count - 1])
         if self.windows.is_due(step):
             if state.loads.steps[0] > 0:  # a window is open
-                self._note(state.loads.window_extreme[:, 4].tolist(), step)
+                self._note(state.loads.window_extreme[: self.structures, 4].tolist(), step)
             self.before, self.latest = self.latest, Copy.of(state)
 
     def _note(self, highest: list[float], step: int) -> None:
@@ -205,7 +207,8 @@ def replay(simulation, steps: int, parts: int, asked: Callable[[], bool]) -> dic
     state = replace(
         simulation.state, bodies=Bodies(*(values.copy() for values in copy.bodies)),
         pairs=unpacked(copy.pairs, 2 * len(copy.pairs.a) + 64), ledger=empty_ledger(len(simulation.state.ledger.departed_work)),
-        loads=empty_loads(len(loads.step_contacts), len(loads.impulse_map)), clock=clock_at(copy.step * simulation.dt),
+        loads=empty_loads(len(loads.step_contacts), len(loads.impulse_map)), hits=no_hits(0),
+        clock=clock_at(copy.step * simulation.dt),
     )  # fmt: skip
     again = replace(simulation, state=state, dt=simulation.dt / parts)
     left = steps * parts

@@ -14,6 +14,7 @@ from dilatedem.output import checkpoint, folder
 from dilatedem.output.background import Background
 from dilatedem.output.energies import Energies
 from dilatedem.output.forces import Forces
+from dilatedem.output.hits import Hits
 from dilatedem.output.motion import TrackedBodies
 from dilatedem.output.observer import Observer
 from dilatedem.output.record import Record
@@ -43,7 +44,7 @@ class Checkpoints(Observer):
 
 
 #: all observers, in the order in which they look; the first one's interval is that of the windows of loads
-OBSERVERS: tuple[type[Observer], ...] = (Forces, LoadWatch, Energies, TrackedBodies, Snapshots, Record, Checkpoints)
+OBSERVERS: tuple[type[Observer], ...] = (Forces, LoadWatch, Hits, Energies, TrackedBodies, Snapshots, Record, Checkpoints)
 
 
 def intervals(case: Case) -> list[float]:

@@ -18,6 +18,7 @@ from dilatedem.run.advice import advice
 from dilatedem.run.crew import Crew
 from dilatedem.run.error_check import Watch
 from dilatedem.run.faults import fault
+from dilatedem.run.hits import hit_log, hits_at_start
 from dilatedem.run.pace import free_span, time_step
 from dilatedem.run.views import Floes, Structures
 from dilatedem.scene.arrays import build_model, initial_bodies
@@ -25,6 +26,7 @@ from dilatedem.scene.overlaps import require_apart
 from dilatedem.scene.place import Scene, compose
 from dilatedem.state.bodies import Bodies, Ids
 from dilatedem.state.clock import NEVER, Clock, Status, clock_at_start
+from dilatedem.state.hits import HitLog, Hits
 from dilatedem.state.ledger import Ledger, empty_ledger, energies
 from dilatedem.state.loads import Loads, Windows, empty_loads, no_windows
 from dilatedem.state.model import Model
@@ -51,12 +53,13 @@ class State:
     pairs: Pairs
     ledger: Ledger
     loads: Loads
+    hits: Hits
     clock: Clock
     watch: Watch | None = None  # of the highest load, where `time.error_check` asks for it
 
     def groups(self) -> dict:
         """All arrays of the state, by name."""
-        own = {name: getattr(self, name) for name in ("ids", "bodies", "ledger", "loads", "clock")}
+        own = {name: getattr(self, name) for name in ("ids", "bodies", "ledger", "loads", "hits", "clock")}
         return own | {"pairs": in_use(self.pairs)} | (self.watch.groups() if self.watch else {})
 
     def copies(self) -> dict:
@@ -85,12 +88,13 @@ class Simulation:
     workspace: Workspace = field(init=False)
     tally: Tally = field(init=False)
     windows: Windows = field(init=False)
+    log: HitLog = field(init=False)
     crew: Crew = field(init=False)  # of its threads, those that work
 
     def __post_init__(self):
         self.events, self.crew = events_of(self), Crew(self.threads)
         self.cells, self.tally = make_cells(self.model.floating), empty_tally()
-        self.windows = no_windows(len(self.state.loads.step_contacts))
+        self.windows, self.log = no_windows(len(self.state.loads.step_contacts)), hit_log(self.case, self.model, self.dt)
         self.make_room()
 
     @classmethod
@@ -107,10 +111,11 @@ class Simulation:
         critical = critical_step(model, bodies)
         dt = time_step(case, critical)
         span = free_span(case, dt)
-        loads = empty_loads(len(scene.structures), int(model.charts.map.max(initial=-1)) + 1)
+        loads = empty_loads(len(scene.records), int(model.charts.map.max(initial=-1)) + 1)
+        watch = Watch(dt, span, len(scene.structures)) if case.time.error_check else None
         state = State(
             Ids(np.arange(scene.count)), bodies, empty_pairs(PAIRS_PER_BODY * scene.count + 64), empty_ledger(len(WORKS)),
-            loads, clock_at_start(), Watch(dt, span) if case.time.error_check else None,
+            loads, hits_at_start(case, dt), clock_at_start(), watch,
         )  # fmt: skip
         return cls(case, scene, model, state, dt, critical, span, threads)
 
@@ -255,8 +260,8 @@ class Simulation:
             team = Alone() if alone else Team(self.crew.now)
         state = self.state
         return (
-            team, self.timer, self.model, state.bodies, state.pairs, self.spare, self.cells, self.workspace, self.tally,
-            state.ledger, state.loads, self.windows, state.clock,
+            team, self.timer, self.model, state.ids, state.bodies, state.pairs, self.spare, self.cells, self.workspace, self.tally,
+            state.ledger, state.loads, self.windows, state.hits, self.log, state.clock,
         )  # fmt: skip
 
     def next_event(self, step: int) -> int:

@@ -66,15 +66,15 @@ class Floes:
 
 
 class StructureNow:
-    """One structure at this moment."""
+    """One structure, or several together, at this moment."""
 
     def __init__(self, simulation, number: int):
         self._loads, self._charts, self._number = simulation.state.loads, simulation.model.charts, number
-        self.name = simulation.scene.structures[number].name
+        self.name = simulation.scene.records[number].name
 
     @property
     def load(self) -> np.ndarray:
-        """(6,) force [N] and moment about the structure's centre at z = 0 [N m] of the ice on it in the last step."""
+        """(6,) force [N] of the ice on it in the last step, and moment [N m] about its centre at `output.moment_level`."""
         return self._loads.step_load[self._number].copy()
 
     @property
@@ -84,17 +84,17 @@ class StructureNow:
 
 
 class Structures(Mapping):
-    """All structures by name."""
+    """All structures by name; `total`, where the case has several, is not listed but can be asked for."""
 
     def __init__(self, simulation):
         self._simulation = simulation
-        self._numbers = {structure.name: number for number, structure in enumerate(simulation.scene.structures)}
+        self._numbers = {record.name: number for number, record in enumerate(simulation.scene.records)}
 
     def __getitem__(self, name: str) -> StructureNow:
         return StructureNow(self._simulation, self._numbers[name])
 
     def __iter__(self) -> Iterator[str]:
-        return iter(self._numbers)
+        return iter([structure.name for structure in self._simulation.scene.structures])
 
     def __len__(self) -> int:
-        return len(self._numbers)
+        return len(self._simulation.scene.structures)

@@ -11,9 +11,11 @@ from dilatedem.numerics.blocks import offsets
 from dilatedem.numerics.frames import matrix_from_quaternion
 from dilatedem.numerics.plain import inverse, turned
 from dilatedem.scene.place import Scene, periodic_axes
+from dilatedem.scene.records import flow_direction
 from dilatedem.state.bodies import Bodies, Solids, bodies_at_rest
 from dilatedem.state.charts import Along, Charts
 from dilatedem.state.model import Model
+from dilatedem.state.records import records_of
 from dilatedem.state.setting import CONTACT_SETTINGS, ContactSetting, Surroundings
 from dilatedem.structures.held import HeldBody
 from dilatedem.structures.kind import Part
@@ -44,6 +46,7 @@ def build_model(case: Case, scene: Scene) -> Model:
         loads=load_setting(case),
         surroundings=Surroundings(*np.where(periodic, case.domain.size, 0.0).tolist()),
         charts=_pack_charts(case, scene),
+        records=records_of([record.members for record in scene.records], flow_direction(case)),
     )
 
 
@@ -152,7 +155,7 @@ def initial_bodies(case: Case, scene: Scene, model: Model) -> Bodies:
 
 
 def _pack_charts(case: Case, scene: Scene) -> Charts:
-    charts = [structure.chart for structure in scene.structures]
+    charts = [record.chart for record in scene.records]
     count = len(charts)
     mapped = np.array([chart is not None for chart in charts], np.bool_)
     outlines = [np.zeros((0, 2)) if chart is None or chart.outline is None else chart.outline for chart in charts]
@@ -169,7 +172,7 @@ def _pack_charts(case: Case, scene: Scene) -> Charts:
         elif chart.along == Along.OUTLINE:
             length[s] = perimeter(chart.outline)
     return Charts(
-        center=np.reshape([structure.place for structure in scene.structures], (-1, 3)),
+        center=np.reshape([record.place for record in scene.records], (-1, 3)),
         map=np.where(mapped, np.cumsum(mapped) - 1, -1),
         along=along,
         origin=origin,

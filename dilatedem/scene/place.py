@@ -19,6 +19,7 @@ from dilatedem.geometry.polyhedron import convex_hull, prism
 from dilatedem.geometry.shapes import BodyShape
 from dilatedem.numerics.frames import matrix_from_quaternion, quaternion_from_rotation_vector
 from dilatedem.numerics.plain import turned
+from dilatedem.scene.records import Record, records_of
 from dilatedem.scene.room import generated_floes
 from dilatedem.state.storage import MOST_CORNERS
 from dilatedem.structures.held import HeldBody
@@ -83,6 +84,7 @@ class Scene:
     plan_area: np.ndarray  # (n,) m2
     density: np.ndarray  # (n,) kg/m3
     structures: list[PlacedStructure]
+    records: list[Record]  # rows of the record of loads: the structures, and sums over them
     field: FloeField
 
     @property
@@ -139,6 +141,7 @@ def _scene(case: Case, explicit: list[PlacedBody], field: FloeField, structures:
     for number, body in enumerate(explicit):
         position[number], orientation[number] = body.position, body.orientation
     shapes, order = [body.shape for body in explicit], [np.arange(first)]
+    structures = [*structures, *_held(case, explicit)]
     for floes, shape, centroid in floe_shapes(field.outlines, case.ice.thickness, case.ice.dilated_radius):
         order.append(first + floes)
         shapes.append(shape)
@@ -153,7 +156,8 @@ def _scene(case: Case, explicit: list[PlacedBody], field: FloeField, structures:
         outlines=plan.Outlines.of([*(body.outline for body in explicit), *field.outlines]) if explicit else field.outlines,
         plan_area=np.concatenate([[body.plan_area for body in explicit], field.plan_area]),
         density=np.concatenate([[body.density for body in case.body], np.full(len(field.outlines), case.ice.density)]),
-        structures=[*structures, *_held(case, explicit)],
+        structures=structures,
+        records=records_of(case, structures),
         field=field,
     )
 

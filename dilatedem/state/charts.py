@@ -15,7 +15,7 @@ class Along(IntEnum):
 
 
 class Charts(NamedTuple):
-    """Of s structures; their outlines in plan stand one after the other."""
+    """Of s rows of the record of loads; their outlines in plan stand one after the other."""
 
     center: np.ndarray  # (s, 3) m, about which moments are stated
     map: np.ndarray  # (s,) number of the load map, -1 = none

@@ -13,12 +13,20 @@ HEIGHT_BINS = 20
 WINDOWS, MOST_WAITING = 1000, 200_000
 
 
+#: extremes of a window, in order, as columns of forces.csv: of forces along x, y, the horizontal, along the current, across it,
+#: and of moments about the case's level
+EXTREMES = (
+    "fx_min_N", "fx_max_N", "fy_min_N", "fy_max_N", "fh_max_N", "along_min_N", "along_max_N", "across_min_N", "across_max_N",
+    "mx_min_Nm", "mx_max_Nm", "my_min_Nm", "my_max_Nm", "mz_min_Nm", "mz_max_Nm", "mh_max_Nm",
+)  # fmt: skip
+
+
 class Loads(NamedTuple):
-    """Loads on s structures: sums and extremes of the open window, and maps since the start."""
+    """Loads of s records (`state.records`): sums and extremes of the open window, and maps since the start."""
 
     steps: np.ndarray  # (1,) steps in the open window
     window_sum: np.ndarray  # (s, 6) force N and moment N m, summed over steps
-    window_extreme: np.ndarray  # (s, 5) fx min, fx max, fy min, fy max, horizontal resultant max, N
+    window_extreme: np.ndarray  # (s, EXTREMES) N, N m
     contact_sum: np.ndarray  # (s,) contacts, summed over steps
     step_load: np.ndarray  # (s, 6) of this step
     step_contacts: np.ndarray  # (s,) of this step
@@ -39,24 +47,24 @@ class Windows(NamedTuple):
     due: np.ndarray  # (room + 1,) step at which each of them ended, then those at which the next will
     steps: np.ndarray  # (room,) steps in it
     sum: np.ndarray  # (room, s, 6) and so on as in `Loads`
-    extreme: np.ndarray  # (room, s, 5)
+    extreme: np.ndarray  # (room, s, EXTREMES)
     contacts: np.ndarray  # (room, s)
 
 
-def empty_loads(structures: int, maps: int) -> Loads:
-    """Nothing recorded yet of so many structures, and so many load maps."""
-    s = structures
+def empty_loads(records: int, maps: int) -> Loads:
+    """Nothing recorded yet of so many records, and so many load maps."""
+    s = records
     per_mode = (np.zeros((2, MODE_COUNT)) for _ in range(4))
     return Loads(
-        np.zeros(1, np.int64), np.zeros((s, 6)), np.zeros((s, 5)), np.zeros(s, np.int64), np.zeros((s, 6)), np.zeros(s, np.int64),
-        np.zeros((maps, PLACE_BINS, HEIGHT_BINS)), *per_mode,
+        np.zeros(1, np.int64), np.zeros((s, 6)), np.zeros((s, len(EXTREMES))), np.zeros(s, np.int64), np.zeros((s, 6)),
+        np.zeros(s, np.int64), np.zeros((maps, PLACE_BINS, HEIGHT_BINS)), *per_mode,
     )  # fmt: skip
 
 
-def no_windows(structures: int) -> Windows:
+def no_windows(records: int) -> Windows:
     """None has ended, and none will."""
-    room = max(2, min(WINDOWS, MOST_WAITING // max(1, structures)))
+    room = max(2, min(WINDOWS, MOST_WAITING // max(1, records)))
     return Windows(
-        np.zeros(1, np.int64), np.full(room + 1, NEVER), np.zeros(room, np.int64), np.zeros((room, structures, 6)),
-        np.zeros((room, structures, 5)), np.zeros((room, structures), np.int64),
+        np.zeros(1, np.int64), np.full(room + 1, NEVER), np.zeros(room, np.int64), np.zeros((room, records, 6)),
+        np.zeros((room, records, len(EXTREMES))), np.zeros((room, records), np.int64),
     )  # fmt: skip

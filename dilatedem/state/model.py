@@ -7,6 +7,7 @@ import numpy as np
 from dilatedem.geometry.shapes import Hulls, Shapes
 from dilatedem.state.bodies import Solids
 from dilatedem.state.charts import Charts
+from dilatedem.state.records import Records
 from dilatedem.state.setting import ContactSetting, Surroundings
 
 
@@ -21,3 +22,4 @@ class Model(NamedTuple):
     loads: NamedTuple  # `water.loads.LoadSetting`
     surroundings: Surroundings
     charts: Charts
+    records: Records

@@ -28,6 +28,9 @@ class Workspace(NamedTuple):
     near: np.ndarray  # (m,) pairs that may touch before all bodies stand at one instant again
     awake: np.ndarray  # (m,) pairs to evaluate in this step
     at_structure: np.ndarray  # (m,) those of them with a structure
+    loaded: np.ndarray  # (m,) those of the awake that press hard, behind a load event
+    pushing: np.ndarray  # (n,) floes that push on a structure
+    is_pushing: np.ndarray  # (n,) False between two looks
     busy: np.ndarray  # (n,) bodies of near pairs, in order
     idle: np.ndarray  # (n,) all others, in order
     is_busy: np.ndarray  # (n,)
@@ -74,6 +77,9 @@ def make_workspace(shapes, hulls, capacity: int, threads: int) -> Workspace:
         near=np.zeros(capacity, np.int64),
         awake=np.zeros(capacity, np.int64),
         at_structure=np.zeros(capacity, np.int64),
+        loaded=np.zeros(capacity, np.int64),
+        pushing=np.zeros(bodies, np.int64),
+        is_pushing=np.zeros(bodies, np.bool_),
         busy=np.zeros(bodies, np.int64),
         idle=np.zeros(bodies, np.int64),
         is_busy=np.zeros(bodies, np.bool_),

@@ -7,6 +7,7 @@ from dilatedem.motion.energy import book_energies
 from dilatedem.motion.paces import foresee
 from dilatedem.motion.timestep import assembled_frequency
 from dilatedem.state.clock import Status
+from dilatedem.step.hits import watch_hits
 from dilatedem.step.launch import collide_pairs, complete_spins, drift_bodies, float_and_kick, longest_path, surprised, tick
 from dilatedem.step.stages import COLLIDE, DRIFT, FLOAT, FORESEE, IDLE, RECORD, SEARCH, WAKE
 from dilatedem.structures.record import end_window, load_structures, record_loads
@@ -15,7 +16,9 @@ DONE, PAIRS_FULL, TOO_FAST, TOO_DEEP = int(Status.DONE), int(Status.PAIRS_FULL),
 
 
 @kernel
-def advance(team, timer, model, bodies, pairs, spare, cells, workspace, tally, ledger, loads, windows, clock, span, steps):
+def advance(
+    team, timer, model, ids, bodies, pairs, spare, cells, workspace, tally, ledger, loads, windows, hits, log, clock, span, steps
+):  # fmt: skip
     """Advance all bodies by up to `steps` steps of `clock.dt`; returns a `Status`, its culprit in `clock`.
 
     The method of Liu, Long & Ji (2015): move, meet, float. Bodies hold positions, velocities and loads of one instant, before and
@@ -51,9 +54,10 @@ def advance(team, timer, model, bodies, pairs, spare, cells, workspace, tally, l
                 workspace,
             )  # fmt: skip
             lap(timer, FLOAT)
-            load_structures(at_structure, dt, m.structure_of, m.whole_of, m.charts, bodies, pairs, workspace, loads)
-            record_loads(loads)
+            load_structures(at_structure, dt, m.structure_of, m.charts, m.records, bodies, pairs, workspace, loads)
+            record_loads(m.records, loads)
             end_window(clock.step[0], loads, windows)
+            watch_hits(awake, at_structure, dt, clock, m, ids, bodies, pairs, workspace, loads, hits, log)
             if too_deep(tally, pairs, clock):
                 status = TOO_DEEP
             if status != DONE or surprised(team, workspace):

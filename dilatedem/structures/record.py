@@ -5,14 +5,19 @@ from math import atan2, pi, sqrt
 from dilatedem.jit import device, item
 from dilatedem.numerics.vector import add, cross, load, scale, sub
 from dilatedem.state.charts import Along
-from dilatedem.state.loads import HEIGHT_BINS, PLACE_BINS
+from dilatedem.state.loads import EXTREMES, HEIGHT_BINS, PLACE_BINS
 
 ANGLE, LINE = int(Along.ANGLE), int(Along.LINE)
+EXTREME_COUNT = len(EXTREMES)
+#: columns of the extremes: of a pair the first, its lowest
+FX, FY, FH, ALONG, ACROSS, MX, MY, MZ, MH = map(EXTREMES.index, (
+    "fx_min_N", "fy_min_N", "fh_max_N", "along_min_N", "across_min_N", "mx_min_Nm", "my_min_Nm", "mz_min_Nm", "mh_max_Nm",
+))  # fmt: skip
 
 
 @item
-def load_structures(count, dt, structure_of, whole_of, charts, bodies, pairs, workspace, loads):
-    """Loads on all structures at this step, from the awake pairs with one, `count` of them; then wholes by their parts."""
+def load_structures(count, dt, structure_of, charts, records, bodies, pairs, workspace, loads):
+    """Loads of all records at this step, from the awake pairs with a structure, `count` of them."""
     for s in range(len(loads.step_contacts)):
         loads.step_contacts[s] = 0
         for m in range(6):
@@ -28,7 +33,21 @@ def load_structures(count, dt, structure_of, whole_of, charts, bodies, pairs, wo
         if structure_of[a] >= 0:
             force, couple = scale(-1.0, force), scale(-1.0, couple)
             _load_structure(structure_of[a], load(bodies.position, a), load(pairs.point, k), force, couple, impulse, charts, loads)
-    _load_wholes(whole_of, loads)
+    for t in range(len(records.total)):
+        _add_up(records.total[t], records.start[t], records.start[t + 1], records.member, charts.center, loads)
+
+
+@item
+def _add_up(row, first, last, member, center, loads):
+    """The load of a row as the sum of those of member[first:last], its moment about its own centre."""
+    for w in range(first, last):
+        s = member[w]
+        force = load(loads.step_load, s)
+        moment = cross(sub(load(center, s), load(center, row)), force)
+        loads.step_contacts[row] += loads.step_contacts[s]
+        for m in range(3):
+            loads.step_load[row, m] += force[m]
+            loads.step_load[row, 3 + m] += loads.step_load[s, 3 + m] + moment[m]
 
 
 @item
@@ -59,17 +78,6 @@ def _load_structure(s, position, arm, force, couple, impulse, charts, loads):
     loads.impulse_map[charts.map[s], i, j] += impulse
 
 
-@item
-def _load_wholes(whole_of, loads):
-    """Add the load of each part to that of the structure that it is a part of."""
-    for s in range(len(whole_of)):
-        whole = whole_of[s]
-        if whole >= 0:
-            loads.step_contacts[whole] += loads.step_contacts[s]
-            for m in range(6):
-                loads.step_load[whole, m] += loads.step_load[s, m]
-
-
 @device
 def place_on_outline(outline, first, last, x, y):
     """How far along the closed outline of corners first..last the place nearest to (x, y) lies, from its first corner [m]."""
@@ -89,22 +97,43 @@ def place_on_outline(outline, first, last, x, y):
 
 
 @item
-def record_loads(loads):
-    """Add this step's structure loads to the open window: sums and extremes."""
+def record_loads(records, loads):
+    """Add this step's loads to the open window: sums and extremes."""
     first = loads.steps[0] == 0
     loads.steps[0] += 1
     for s in range(len(loads.step_contacts)):
-        fx, fy = loads.step_load[s, 0], loads.step_load[s, 1]
-        fh = sqrt(fx * fx + fy * fy)
         for m in range(6):
             loads.window_sum[s, m] = loads.step_load[s, m] + (0.0 if first else loads.window_sum[s, m])
         loads.contact_sum[s] = loads.step_contacts[s] + (0 if first else loads.contact_sum[s])
-        extreme = loads.window_extreme
-        extreme[s, 0] = fx if first else min(extreme[s, 0], fx)
-        extreme[s, 1] = fx if first else max(extreme[s, 1], fx)
-        extreme[s, 2] = fy if first else min(extreme[s, 2], fy)
-        extreme[s, 3] = fy if first else max(extreme[s, 3], fy)
-        extreme[s, 4] = fh if first else max(extreme[s, 4], fh)
+        _widen(s, first, records.flow, loads.step_load, loads.window_extreme)
+
+
+@item
+def _widen(s, first, flow, step_load, extreme):
+    """Bring the load of row s at this step into the extremes of its window (`state.loads.EXTREMES`); first: of its steps."""
+    fx, fy, mx, my = step_load[s, 0], step_load[s, 1], step_load[s, 3], step_load[s, 4]
+    _span(s, FX, first, fx, extreme)
+    _span(s, FY, first, fy, extreme)
+    _top(s, FH, first, sqrt(fx * fx + fy * fy), extreme)
+    _span(s, ALONG, first, flow[0] * fx + flow[1] * fy, extreme)
+    _span(s, ACROSS, first, flow[0] * fy - flow[1] * fx, extreme)
+    _span(s, MX, first, mx, extreme)
+    _span(s, MY, first, my, extreme)
+    _span(s, MZ, first, step_load[s, 5], extreme)
+    _top(s, MH, first, sqrt(mx * mx + my * my), extreme)
+
+
+@device
+def _span(s, m, first, value, extreme):
+    """Lowest and highest of a value, in columns m and m + 1."""
+    extreme[s, m] = value if first else min(extreme[s, m], value)
+    extreme[s, m + 1] = value if first else max(extreme[s, m + 1], value)
+
+
+@device
+def _top(s, m, first, value, extreme):
+    """Highest of a value that is never negative, in column m."""
+    extreme[s, m] = value if first else max(extreme[s, m], value)
 
 
 @item
@@ -118,7 +147,7 @@ def end_window(step, loads, windows):
         windows.contacts[w, s] = loads.contact_sum[s]
         for m in range(6):
             windows.sum[w, s, m] = loads.window_sum[s, m]
-        for m in range(5):
+        for m in range(EXTREME_COUNT):
             windows.extreme[w, s, m] = loads.window_extreme[s, m]
     windows.count[0] += 1
     loads.steps[0] = 0

@@ -16,7 +16,7 @@ ROOT = Path(__file__).parents[2]
 CASES = ROOT / "tests" / "cases"
 
 #: the same bytes in two runs of one case, whatever the number of threads and however often it was resumed
-EXACT = ("case.toml", "forces.csv", "energy.csv", "bodies.csv", "ice.pvd", "structures.vtu")
+EXACT = ("case.toml", "forces.csv", "hits.csv", "energy.csv", "bodies.csv", "ice.pvd", "structures.vtu")
 
 
 #: stands for the process that runs the cases of a sweep: does nothing, and says that all went well

@@ -40,9 +40,9 @@ def case_of(model: str, boundaries: tuple[str, str], structure: list[dict]) -> C
         "water": {"velocity": [2.0, 0.5]},
         "structure": structure,
         "contact": {"model": model},
-        "time": {"duration": 1.1 if "outflow" in boundaries else 0.4, "step_fraction": 0.4},
+        "time": {"duration": 1.1, "step_fraction": 0.4},
         "output": {"force_interval": 0.05, "snapshot_interval": 0.15, "checkpoint_interval": 0.12, "track": "all",
-                   "track_interval": 0.1},
+                   "track_interval": 0.1, "hit_gap": 0.02, "hits_in_full": 2, "moment_level": -0.7},
     })  # fmt: skip
 
 

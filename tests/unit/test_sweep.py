@@ -87,7 +87,8 @@ def test_grid_of_completed_cases(quick, tmp_path, capsys):
     ]
     assert list(found[0]) == [
         "water.velocity.0", "seed", "run", "status", "steps", "wall_s", "pile_fx_max_N", "pile_fx_mean_N",
-        "pile_fy_max_N", "pile_fy_min_N", "pile_fh_max_N", "residual_over_work", "message",
+        "pile_fy_max_N", "pile_fy_min_N", "pile_fh_max_N", "pile_along_max_N", "pile_along_mean_N", "pile_across_max_N",
+        "pile_across_min_N", "pile_mh_max_Nm", "pile_mz_max_Nm", "pile_mz_min_Nm", "residual_over_work", "message",
     ]
     assert {row["status"] for row in found} == {"completed"}
     last = found[-1]

@@ -8,7 +8,10 @@ from dilatedem.output.tables import BODIES_COLUMNS, FORCES_COLUMNS, Table
 
 RNG = np.random.default_rng(7)
 FORCE_ROWS = [
-    [0.01 * (i // 2 + 1), ("pile", 'leg "B", north')[i % 2], *RNG.normal(size=11) * 1e4, int(RNG.integers(9))]
+    [
+        0.01 * (i // 2 + 1), ("pile", 'leg "B", north')[i % 2], *RNG.normal(size=11) * 1e4, int(RNG.integers(9)),
+        *RNG.normal(size=13) * 1e4,
+    ]
     for i in range(40)
 ]
 
@@ -23,7 +26,7 @@ def test_header_and_values_come_back(tmp_path):
         rows = list(csv.DictReader(file))
     assert tuple(rows[0]) == FORCES_COLUMNS
     assert [row["structure"] for row in rows] == [row[1] for row in FORCE_ROWS]
-    assert rows[0]["contacts"] == str(FORCE_ROWS[0][-1])
+    assert rows[0]["contacts"] == str(FORCE_ROWS[0][13])
     assert rows[5]["time_s"] == "0.03"
     for found, given in zip(rows, FORCE_ROWS, strict=True):
         numbers = [float(found[name]) for name in FORCES_COLUMNS[2:13]]

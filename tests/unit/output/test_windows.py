@@ -5,11 +5,12 @@ import numpy as np
 import pytest
 
 from dilatedem.output.tables import FORCES_COLUMNS, Table
-from dilatedem.output.windows import append, end_open_window, work_up
+from dilatedem.output.windows import append, end_open_window, headline_loads, work_up
 from dilatedem.state.loads import WINDOWS, empty_loads, no_windows
 
 DT = 1e-3  # s
 STEPS = 10  # of a window
+FLOW = (0.6, -0.8)  # direction of the current
 
 
 def kept(names: list[str], count: int, path: Path, every: int) -> dict[str, dict]:
@@ -25,11 +26,11 @@ def kept(names: list[str], count: int, path: Path, every: int) -> dict[str, dict
             end_open_window(windows, loads, STEPS * number)
             assert loads.steps[0] == 0  # the next window is open
             if number % every == 0 or windows.count[0] == WINDOWS:
-                append(work_up(windows, names, DT, peaks), names, table)
-        ended = work_up(windows, names, DT, peaks)
+                append(work_up(windows, names, DT, peaks, FLOW), names, table)
+        ended = work_up(windows, names, DT, peaks, FLOW)
         if ended:
             append(ended, names, table)
-        assert work_up(windows, names, DT, peaks) is None  # nothing is left
+        assert work_up(windows, names, DT, peaks, FLOW) is None  # nothing is left
     return peaks
 
 
@@ -50,6 +51,12 @@ def test_many_windows_at_once_come_out_as_one_by_one(names, every, tmp_path):
         assert peak["fh_max_time_s"] == pytest.approx(float(highest["time_s"]))
         assert peak["fx_min_N"] == pytest.approx(min(float(row["fx_min_N"]) for row in mine), rel=1e-8)
         assert peak["steps"] == STEPS * count
+        assert peak["across_max_N"] == pytest.approx(max(float(row["across_max_N"]) for row in mine), rel=1e-8)
+        overturning = max(mine, key=lambda row: float(row["mh_max_Nm"]))
+        assert peak["mh_max_time_s"] == pytest.approx(float(overturning["time_s"]))
+        along = [FLOW[0] * float(row["fx_N"]) + FLOW[1] * float(row["fy_N"]) for row in mine]
+        assert [float(row["along_N"]) for row in mine] == pytest.approx(along, rel=1e-6, abs=1e-4)
+        assert headline_loads(peak)["along_mean_N"] == pytest.approx(np.mean(along), rel=1e-6)
         assert peak["fx_sum"] / peak["steps"] == pytest.approx(np.mean([float(row["fx_N"]) for row in mine]), rel=1e-6)
 
 
@@ -59,7 +66,7 @@ def test_means_are_over_the_steps_of_each_window(tmp_path):
         for steps, end in ((4, 4), (2, 6)):  # the last window of a run may be shorter
             loads.steps[0], loads.window_sum[:], loads.contact_sum[:] = steps, 8.0, 6
             end_open_window(windows, loads, end)
-        append(work_up(windows, ["pile"], DT, peaks), ["pile"], table)
+        append(work_up(windows, ["pile"], DT, peaks, FLOW), ["pile"], table)
     rows = list(csv.DictReader((tmp_path / "forces.csv").open()))
     assert [(row["time_s"], row["fx_N"], row["mz_Nm"], row["contacts"]) for row in rows] == [
         ("0.004", "2", "2", "1.5"), ("0.006", "4", "4", "3"),

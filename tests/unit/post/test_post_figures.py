@@ -93,7 +93,7 @@ def test_force_history_keeps_the_extremes_when_windows_are_joined(run):
 
 
 def test_force_history_says_how_many_hits_there_were_and_what_counts_as_one(run):
-    hits = hits_on(run, run.forces["pile"])
+    hits = hits_on(run, "pile")
     drawing = force_figure("pile", run.forces["pile"], hits)
     words = f"{hits['count']} separate hits: horizontal force of at least"
     assert drawing.figure.axes[1].get_title("left").startswith(words) and words in drawing.caption

@@ -116,7 +116,7 @@ def test_without_the_key_there_is_no_check_and_no_copy(tmp_path):
     out = tmp_path / "run"
     assert "error_check" not in summary_of(one_floe(error_check=False), out)
     groups, meta = checkpoint.load(out / "restart.h5")
-    assert groups.keys() == {"ids", "bodies", "pairs", "ledger", "loads", "clock"} and "watch" not in meta
+    assert groups.keys() == {"ids", "bodies", "pairs", "hits", "ledger", "loads", "clock"} and "watch" not in meta
 
 
 def test_a_replay_that_stops_is_told_and_ends_no_run(monkeypatch, tmp_path):

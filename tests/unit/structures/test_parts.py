@@ -90,7 +90,7 @@ def test_its_files_are_complete(run):
 
     post([run])
     drawn = {path.name for path in (run / "figures").iterdir()}
-    assert {"force_jacket.png", "force_jacket_leg_a.png", "load_around_jacket_leg_b.png", "load_map_jacket_fender.png"} <= drawn
+    assert {"force_jacket.png", "force_jacket_leg_a.png", "load_around_jacket_leg_b.png", "load_map_jacket_leg_a.png"} <= drawn
     page = (run / "report.html").read_text(encoding="utf-8")
     assert page.index("jacket/leg_a") < page.index("jacket/leg_b") < page.index("jacket/fender")
 
