@@ -14,6 +14,7 @@ from dilatedem.contact.consistent.line import line_energy, press_edge
 from dilatedem.contact.consistent.point import elliptic, press_vertex
 from dilatedem.contact.consistent.rim import strongest_rim
 from dilatedem.contact.liu2015.cone import patch_of
+from dilatedem.contact.nominal import nominal_area
 from dilatedem.contact.search.cone import closest
 from dilatedem.contact.search.simplex import closest_on_triangle
 from dilatedem.contact.spring import carried_over, rescaled, slide, viscous_share
@@ -69,6 +70,12 @@ def energy_of_pair(shapes, pairs, vertex, face_normal, k, offset, normal, pb, ov
         vertex, face_normal, shapes, pairs.a[k], pairs.b[k], pairs.corners[k], pairs.corner_a[k], pairs.corner_b[k], offset,
         normal, pb, 0.0, overlap, modulus, scratch,
     )  # fmt: skip
+
+
+@kernel
+def area_of_pair(shapes, pairs, vertex, face_normal, k, offset, normal, pa, pb, depth, scratch):
+    """`nominal_area` of pair k, its bodies turned."""
+    return nominal_area(vertex, face_normal, shapes, pairs.a[k], pairs.b[k], offset, normal, pa, pb, depth, scratch)
 
 
 @kernel

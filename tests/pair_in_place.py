@@ -12,7 +12,7 @@ from dilatedem.state.modes import Mode
 from dilatedem.state.pairs import empty_pairs
 from dilatedem.state.setting import Surroundings
 from dilatedem.state.storage import MOST_CORNERS
-from tests.kernels import distance_of_pair, energy_of_pair, patch_of_pair
+from tests.kernels import area_of_pair, distance_of_pair, energy_of_pair, patch_of_pair
 
 
 class Closest(NamedTuple):
@@ -98,6 +98,13 @@ class PairInPlace:
             self._scratch
         )
         return Press(energy, np.array(force), np.array(moment), Mode(mode), size)
+
+    def nominal(self, depth: float) -> tuple[float, float]:
+        """Nominal area [m2] at a crushed depth [m], and its derivative by the depth [m]."""
+        _, normal, pa, pb, offset = self._evaluate()
+        return area_of_pair(
+            self.shapes, self.pairs, self._vertex, self._face_normal, 0, offset, normal, pa, pb, depth, self._scratch
+        )
 
     def gap(self) -> float:
         """Distance of the dilated bodies [m], negative where they overlap."""

@@ -82,8 +82,9 @@ def _settle(
     force [N], stored [J], overlap [m]: of the elastic law at `crushed`; damped [N]: that force with its dashpot; the rest as of
     `nominal_area`. Where what the ice bore when it was last looked at is more by far, it need not be looked at again.
     """
-    if search.tries == 0 and damped <= pairs.bears[k]:
-        return True, crushed, search, Crushed(FADING * pairs.bears[k], 0.0)
+    remembered = FADING * pairs.bears[k]
+    if search.tries == 0 and damped <= remembered:
+        return True, crushed, search, Crushed(remembered, 0.0)
     area, rate = nominal_area(vertex, face_normal, shapes, pairs.a[k], pairs.b[k], offset, normal, pa, pb, crushed, scratch)
     limit, limit_rate = _limit(contact, area, rate)
     tries, low, high, first, first_limit = search

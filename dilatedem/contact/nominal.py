@@ -9,19 +9,16 @@ Exact for a flat side on a pile, a wedge, a sphere and a face on a flat. Walls, 
 bound it where the outer size of the body ends: the height of a floe's side is its thickness.
 """
 
-from math import atan2, inf, pi, sqrt
+from math import inf, sqrt
 
 from dilatedem.contact.search.closest import farthest_vertex
 from dilatedem.contact.search.cone import radius_at
+from dilatedem.contact.section import ASKEW, DIRECTION, EDGE, OFFSET, cut, measure, reaches_past
 from dilatedem.geometry.shapes import TaperedShapes
 from dilatedem.jit import by_type, device
 from dilatedem.numerics.vector import add, along, cross, dot, load, norm, scale, sub, tangents
 from dilatedem.state.storage import MOST_CORNERS
 
-#: rows of `scratch` with the half planes of a, by number: u and v of the outward direction, share of the edge that is rounded |
-#: where the rounding begins, tangent of the slope behind it | offset, its rate, radius of the rounding in plan; those of b stand in
-#: the next rows. Rows 0 and 1 hold the polygon that is cut: u, v, and the half plane along the side that begins there
-DIRECTION, EDGE, OFFSET = 2, 4, 6
 #: cosine of the angle to the normal below which a face looks away too far to bound anything
 AWAY = -0.5
 #: sine of that angle below which a face lies flush
@@ -30,8 +27,6 @@ FLUSH = 1e-12
 WALL, SLOPE = 0.1, 0.35
 #: Newton steps for where two bodies that recede in one direction end: three are exact to 1e-5
 STEPS = 3
-#: sine of the angle of two directions beyond which two bodies that recede along them leave each other alone
-ASKEW = 0.2
 #: half the side of the square that is cut, in units of the floating body's reach
 WIDE = 4.0
 
@@ -168,12 +163,36 @@ def _together(cosine):
 
 
 @device
-def _missing(sine, cosine, one_body):
-    """What a rounded corner lacks of a sharp one between two half planes, by their angle, for roundings of 1 m: between the
-    tangents and the arc, or (of two edges that cross) the ellipse."""
-    if one_body:
-        return sine / (1.0 + cosine) - 0.5 * atan2(sine, cosine)
-    return (1.0 - 0.25 * pi) * sine * (1.0 + ASKEW * ASKEW) / (sine * sine + ASKEW * ASKEW)
+def _reach_alone(scratch, which, count, depth, radius):
+    """Write how far the half planes of a body would reach at a depth [m], were the other flat, and how fast they would move."""
+    for k in range(count):
+        start, share = scratch[EDGE + which, k, 0], scratch[DIRECTION + which, k, 2]
+        width, rate = radius, 0.0
+        if share > 0.0:
+            width, rate = width_at(depth, scratch[EDGE + which, k, 1], radius)
+        scratch[OFFSET + which, k, 0], scratch[OFFSET + which, k, 1] = width, rate
+        scratch[EDGE + which, k, 2] = start + width
+
+
+@device
+def _under(scratch, other, others, u, v, reach, alone, their):
+    """How deep under its tip the other body is at `reach` [m] in a direction, and its slope there; `alone`: reach of the half plane
+    that asks, by itself.
+
+    Of two bodies that recede together, the narrower one says where they end. The wider heeds it the less, the wider it is: a
+    face that lies flush bounds nothing.
+    """
+    deepest, slope = 0.0, 0.0
+    for m in range(others):
+        c = u * scratch[DIRECTION + other, m, 0] + v * scratch[DIRECTION + other, m, 1]
+        heeded = scratch[DIRECTION + other, m, 2] * _together(c)
+        if heeded > 0.0:
+            if scratch[EDGE + other, m, 2] < alone:
+                heeded *= scratch[EDGE + other, m, 2] / alone
+            g, steep = depth_at(c * reach - scratch[EDGE + other, m, 0], scratch[EDGE + other, m, 1], their)
+            if heeded * g > deepest:
+                deepest, slope = heeded * g, heeded * steep * c
+    return deepest, slope
 
 
 @device
@@ -184,22 +203,13 @@ def _recede(scratch, which, count, others, depth, radius, their):
     direction of a half plane, too, its offset y solves f(y) + g(y) = depth, f and g the depths of the two bodies there: from
     beyond, by Newton's method on a convex function.
     """
-    other = 1 - which
     for k in range(count):
         u, v, share = scratch[DIRECTION + which, k, 0], scratch[DIRECTION + which, k, 1], scratch[DIRECTION + which, k, 2]
         start, tangent = scratch[EDGE + which, k, 0], scratch[EDGE + which, k, 1]
-        width, rate = radius, 0.0
+        width, rate = scratch[OFFSET + which, k, 0], scratch[OFFSET + which, k, 1]
         if share > 0.0:
-            width, rate = width_at(depth, tangent, radius)
             for _ in range(STEPS):
-                deepest, slope = 0.0, 0.0
-                for m in range(others):
-                    c = u * scratch[DIRECTION + other, m, 0] + v * scratch[DIRECTION + other, m, 1]
-                    rounded = scratch[DIRECTION + other, m, 2] * _together(c)
-                    if rounded > 0.0:
-                        g, steep = depth_at(c * (start + width) - scratch[EDGE + other, m, 0], scratch[EDGE + other, m, 1], their)
-                        if rounded * g > deepest:
-                            deepest, slope = rounded * g, rounded * steep * c
+                deepest, slope = _under(scratch, 1 - which, others, u, v, start + width, scratch[EDGE + which, k, 2], their)
                 if deepest == 0.0 or deepest == inf:  # the other is flat there, or ends before
                     break
                 own, rise = depth_at(width, tangent, radius)
@@ -210,56 +220,19 @@ def _recede(scratch, which, count, others, depth, radius, their):
 
 
 @device
-def _reaches_past(polygon, count, u, v, offset):
-    """Whether some corner of a polygon lies beyond u x + v y = offset."""
-    for i in range(count):
-        if u * polygon[i, 0] + v * polygon[i, 1] > offset:
-            return True
-    return False
-
-
-@device
-def _cut(source, count, target, u, v, offset, number):
-    """The part of a polygon where u x + v y <= offset, to `target`; returns its corner count. number: of the half plane."""
-    kept = 0
-    sj = u * source[0, 0] + v * source[0, 1] - offset
-    for i in range(count):
-        j = i + 1 if i + 1 < count else 0
-        si, sj = sj, u * source[j, 0] + v * source[j, 1] - offset
-        if si <= 0.0:
-            target[kept, 0], target[kept, 1], target[kept, 2] = source[i, 0], source[i, 1], source[i, 2]
-            kept += 1
-        if (si < 0.0 and sj > 0.0) or (si > 0.0 and sj < 0.0):
-            t = si / (si - sj)
-            target[kept, 0] = source[i, 0] + t * (source[j, 0] - source[i, 0])
-            target[kept, 1] = source[i, 1] + t * (source[j, 1] - source[i, 1])
-            target[kept, 2] = number if si < 0.0 else source[i, 2]
-            kept += 1
-    return kept
-
-
-@device
-def _measure(polygon, count, scratch):
-    """Area of the polygon less what its rounded corners lack [m2], and how fast it grows as its half planes move [m]."""
-    area, rate = 0.0, 0.0
-    before = int(polygon[count - 1, 2])
-    for i in range(count):
-        j, number = i + 1 if i + 1 < count else 0, int(polygon[i, 2])
-        x, y, x1, y1 = polygon[i, 0], polygon[i, 1], polygon[j, 0], polygon[j, 1]
-        area += 0.5 * (x * y1 - x1 * y)
-        if number >= 0:
-            which, k = number // MOST_CORNERS, number % MOST_CORNERS
-            rate += scratch[OFFSET + which, k, 1] * sqrt((x1 - x) * (x1 - x) + (y1 - y) * (y1 - y))
-            rounding = scratch[OFFSET + which, k, 2]
-            if before >= 0 and before != number and rounding > 0.0:
-                last, m = before // MOST_CORNERS, before % MOST_CORNERS
-                u, v = scratch[DIRECTION + which, k, 0], scratch[DIRECTION + which, k, 1]
-                p, q = scratch[DIRECTION + last, m, 0], scratch[DIRECTION + last, m, 1]
-                sine, cosine = p * v - q * u, p * u + q * v
-                if sine > 0.0:
-                    area -= _missing(sine, cosine, which == last) * rounding * scratch[OFFSET + last, m, 2]
-        before = number
-    return max(area, 0.0), rate
+def _end_rounding(scratch, which, count):
+    """Take the rounding off half planes that come near another of their body in the same direction, which has less: a flank that
+    reaches the wall at its far end. Where the one gives way to the other nothing may jump."""
+    for k in range(count):
+        rounding, left = scratch[OFFSET + which, k, 2], 1.0
+        if rounding > 0.0:
+            u, v = scratch[DIRECTION + which, k, 0], scratch[DIRECTION + which, k, 1]
+            for m in range(count):
+                room = scratch[OFFSET + which, m, 0] - scratch[OFFSET + which, k, 0]
+                if scratch[DIRECTION + which, m, 2] < scratch[DIRECTION + which, k, 2] and room < rounding:
+                    same = _together(u * scratch[DIRECTION + which, m, 0] + v * scratch[DIRECTION + which, m, 1])
+                    left = min(left, 1.0 - same * (1.0 - max(room, 0.0) / rounding))
+            scratch[OFFSET + which, k, 2] = left * rounding
 
 
 @device
@@ -274,8 +247,12 @@ def nominal_area(vertex, face_normal, shapes, a, b, offset, normal, pa, pb, dept
     count = _bounds(vertex, face_normal, shapes, a, pa, normal, t1, t2, scratch, 0)
     if shapes.kind[b] == 0:
         others = _bounds(vertex, face_normal, shapes, b, sub(pb, offset), back, t1, t2, scratch, 1)
+    _reach_alone(scratch, 0, count, depth, ra)
+    _reach_alone(scratch, 1, others, depth, rb)
     _recede(scratch, 0, count, others, depth, ra, rb)
     _recede(scratch, 1, others, count, depth, rb, ra)
+    _end_rounding(scratch, 0, count)
+    _end_rounding(scratch, 1, others)
     wide = WIDE * shapes.reach[a]
     for i in range(4):
         scratch[0, i, 0], scratch[0, i, 1] = wide if i == 0 or i == 3 else -wide, wide if i < 2 else -wide
@@ -284,12 +261,12 @@ def nominal_area(vertex, face_normal, shapes, a, b, offset, normal, pa, pb, dept
     for which in range(2):
         for k in range(count if which == 0 else others):
             u, v, out = scratch[DIRECTION + which, k, 0], scratch[DIRECTION + which, k, 1], scratch[OFFSET + which, k, 0]
-            if _reaches_past(scratch[now], corners, u, v, out):
-                corners = _cut(scratch[now], corners, scratch[1 - now], u, v, out, float(which * MOST_CORNERS + k))
+            if reaches_past(scratch[now], corners, u, v, out):
+                corners = cut(scratch[now], corners, scratch[1 - now], u, v, out, float(which * MOST_CORNERS + k))
                 now = 1 - now
                 if corners < 3:
                     return 0.0, 0.0
-    return _measure(scratch[now], corners, scratch)
+    return measure(scratch[now], corners, scratch)
 
 
 @device
