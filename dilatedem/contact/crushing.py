@@ -120,6 +120,15 @@ def _limit(contact, area, rate):
 
 
 @item
+def bearing_pressure(contact, limit):
+    """Pressure [Pa] of crushed ice that bears `limit` [N], as `_limit` has it."""
+    q = contact.crushing_exponent
+    if q == 0.0 or limit == 0.0:
+        return contact.crushing_pressure
+    return contact.crushing_pressure * exp(q / (1.0 + q) * log(limit / contact.crushing_pressure))
+
+
+@item
 def _step(excess, force, stored, overlap, limit, limit_rate):
     """How much deeper [m] the force is equal to the limit: by a power law of the overlap, and a limit that rises evenly."""
     if not (force > 0.0 and limit_rate < inf):

@@ -4,6 +4,7 @@ from dilatedem.output import folder
 from dilatedem.output.observer import TableObserver
 from dilatedem.output.tables import FORCES_COLUMNS, Table
 from dilatedem.output.windows import append, end_open_window, headline_loads, schedule_windows, work_up
+from dilatedem.state.loads import DEPTH, VOLUME
 
 #: bytes of a row, about
 ROW = 270.0
@@ -58,4 +59,13 @@ class Forces(TableObserver):
         return {"peaks": {name: dict(peak) for name, peak in self.peaks.items()}}
 
     def summary(self) -> dict:
-        return {"loads": {name: headline_loads(self.peaks.get(name)) for name in self.records}}
+        return {"loads": {name: headline_loads(self.peaks.get(name)) for name in self.records}} | self._crushed()
+
+    def _crushed(self) -> dict:
+        """What has crushed on each structure, where ice does."""
+        simulation = self.simulation
+        if not simulation.case.laws["crushing"]:
+            return {}
+        crushed = simulation.state.loads.crushed.tolist()
+        told = {name: {"volume_m3": row[VOLUME], "depth_m": row[DEPTH]} for name, row in zip(self.records, crushed, strict=True)}
+        return {"crushed": told}

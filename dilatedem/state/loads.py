@@ -20,6 +20,9 @@ EXTREMES = (
     "mx_min_Nm", "mx_max_Nm", "my_min_Nm", "my_max_Nm", "mz_min_Nm", "mz_max_Nm", "mh_max_Nm",
 )  # fmt: skip
 
+#: columns of `Loads.crushed`
+VOLUME, DEPTH = 0, 1
+
 
 class Loads(NamedTuple):
     """Loads of s records (`state.records`): sums and extremes of the open window, and maps since the start."""
@@ -31,6 +34,7 @@ class Loads(NamedTuple):
     step_load: np.ndarray  # (s, 6) of this step
     step_contacts: np.ndarray  # (s,) of this step
     impulse_map: np.ndarray  # (maps, PLACE_BINS, HEIGHT_BINS) normal impulse, N s, as `state.charts` lays it out
+    crushed: np.ndarray  # (s, 2) m3 of ice that has crushed on it since the start, m of the deepest dent
     mode_steps: np.ndarray  # (2, MODE_COUNT) contact steps, ice on ice and ice on structure
     mode_impulse: np.ndarray  # (2, MODE_COUNT) N s
     mode_force: np.ndarray  # (2, MODE_COUNT) N, largest normal force
@@ -57,7 +61,7 @@ def empty_loads(records: int, maps: int) -> Loads:
     per_mode = (np.zeros((2, MODE_COUNT)) for _ in range(4))
     return Loads(
         np.zeros(1, np.int64), np.zeros((s, 6)), np.zeros((s, len(EXTREMES))), np.zeros(s, np.int64), np.zeros((s, 6)),
-        np.zeros(s, np.int64), np.zeros((maps, PLACE_BINS, HEIGHT_BINS)), *per_mode,
+        np.zeros(s, np.int64), np.zeros((maps, PLACE_BINS, HEIGHT_BINS)), np.zeros((s, 2)), *per_mode,
     )  # fmt: skip
 
 

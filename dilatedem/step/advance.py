@@ -10,6 +10,7 @@ from dilatedem.state.clock import Status
 from dilatedem.step.hits import watch_hits
 from dilatedem.step.launch import collide_pairs, complete_spins, drift_bodies, float_and_kick, longest_path, surprised, tick
 from dilatedem.step.stages import COLLIDE, DRIFT, FLOAT, FORESEE, IDLE, RECORD, SEARCH, WAKE
+from dilatedem.structures.crushed import record_crushed
 from dilatedem.structures.record import end_window, load_structures, record_loads
 
 DONE, PAIRS_FULL, TOO_FAST, TOO_DEEP = int(Status.DONE), int(Status.PAIRS_FULL), int(Status.TOO_FAST), int(Status.TOO_DEEP)
@@ -55,6 +56,7 @@ def advance(
             )  # fmt: skip
             lap(timer, FLOAT)
             load_structures(at_structure, dt, m.structure_of, m.charts, m.records, bodies, pairs, workspace, loads)
+            record_crushed(m.contact, at_structure, m.structure_of, m.records, pairs, workspace, loads)
             record_loads(m.records, loads)
             end_window(clock.step[0], loads, windows)
             watch_hits(awake, at_structure, dt, clock, m, ids, bodies, pairs, workspace, loads, hits, log)
