@@ -11,6 +11,8 @@ from dilatedem.state.modes import MODE_NAMES
 ROW, RATE = 130.0, 0.5
 #: mean pressures of the leading contact [MPa] of which summary.json says how many events exceed them
 PRESSURES = (1, 2, 5)
+#: what is above them, over them: ice that crushes bears its pressure but for round-off
+ABOVE = 1.0 + 1e-9
 MEANING = "shares of the load events whose leading contact has a mean nominal pressure above 1, 2 and 5 MPa at its peak; "
 ELASTIC = (
     "sea ice crushes at 1 to 3 MPa, and floes do not crush here (ice.crushing_pressure): peaks above that are those of elastic "
@@ -83,7 +85,7 @@ def _tell(told: dict, figures: list[float]) -> None:
     told["highest_pressure_Pa"] = max(told["highest_pressure_Pa"], figures[hits.PRESSURE])
     told["crushed"] += figures[hits.CRUSHED] > 0.0
     for pressure in PRESSURES:
-        told[f"above_{pressure}_MPa"] += figures[hits.PRESSURE] > 1e6 * pressure
+        told[f"above_{pressure}_MPa"] += figures[hits.PRESSURE] > ABOVE * 1e6 * pressure
 
 
 def _headline(told: dict) -> dict:

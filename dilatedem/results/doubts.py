@@ -26,11 +26,11 @@ def amounts(part: Any) -> dict[str, Any]:
 def doubt_of_laws(energy: dict[str, Any]) -> str:
     """What the contact laws made or took by themselves, once that passes a tenth of what contacts lost."""
     gain = energy.get("gain_law_J", 0.0)
-    lost = energy.get("loss_damping_J", 0.0) + energy.get("loss_friction_J", 0.0)
+    lost = sum(energy.get(f"loss_{way}_J", 0.0) for way in ("damping", "friction", "crushing"))
     limit = max(LARGEST_GAIN * lost, LARGEST_RESIDUAL * energy.get("turned_over_J", 0.0))
     if abs(gain) <= limit:
         return ""
-    beside = f", {100.0 * abs(gain) / lost:.2g} % of the {joule(lost)} lost to damping and friction" if lost > 0.0 else ""
+    beside = f", {100.0 * abs(gain) / lost:.2g} % of the {joule(lost)} lost in contacts" if lost > 0.0 else ""
     return (
         f"the contact laws themselves {'made' if gain > 0.0 else 'took'} {joule(abs(gain))} (gain_law){beside}, so that hits and "
         'loads are not what the coefficients say; try contact.model = "consistent", which makes none, or a smaller '
