@@ -30,6 +30,7 @@ from dilatedem.state.ledger import empty_ledger
 from dilatedem.state.loads import empty_loads
 from dilatedem.state.pairs import empty_pairs
 from dilatedem.state.records import records_of
+from dilatedem.state.supports import all_held, excursions_at_start
 
 SCENES = ("drift", "jam", "packed")
 MODELS = ("liu2015", "consistent")
@@ -115,12 +116,14 @@ def tiled(tile: Simulation, along_x: int, along_y: int, *, threads: int = 1) -> 
             tuple(member + copy * len(tile.scene.structures) for member in record.members)
             for copy in range(copies) for record in tile.scene.records[: len(tile.scene.structures)]
         ]),
+        supports=all_held(np.concatenate([tile.model.supports.place + move for move in moves])),
     )
     bodies: Bodies = repeated_bodies(tile.state.bodies, floating, moves)
     loads = empty_loads(len(model.charts.center), int(model.charts.map.max(initial=-1)) + 1)
     pairs = empty_pairs(PAIRS_PER_BODY * len(bodies.path) + 64)
     ledger = empty_ledger(len(tile.state.ledger.departed_work))
-    state = State(Ids(np.arange(model.floating)), bodies, pairs, ledger, loads, no_hits(0), clock_at_start())
+    excursions = excursions_at_start(model.charts.center, np.zeros(model.charts.center.shape))
+    state = State(Ids(np.arange(model.floating)), bodies, pairs, ledger, loads, no_hits(0), clock_at_start(), excursions)
     return replace(tile, model=model, state=state, threads=threads)
 
 

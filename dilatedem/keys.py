@@ -34,6 +34,12 @@ RANGES = {
     "s": Range(1e-12, 1e10),
     "Pa": Range(1e-3, 1e21),
     "kg/m3": Range(1e-6, 1e9),
+    "kg": Range(1e-9, 1e15),
+    "kg m2": Range(1e-9, 1e21),
+    "N/m": Range(1e-9, 1e18),
+    "N m/rad": Range(1e-9, 1e24),
+    "N s/m": Range(1e-9, 1e18),
+    "N m s": Range(1e-9, 1e24),
 }
 #: all other numbers
 OTHER_RANGE = Range(0.0, 1e6)
@@ -79,6 +85,7 @@ Vector3 = Annotated[tuple[float, float, float], _as_tuple(3)]
 Size2 = Annotated[tuple[Positive, Positive], _as_tuple(2)]
 # Path of a file; once the case is read, in full.
 File = Annotated[str, AfterValidator(_beside_case)]
+Stiffness2 = Annotated[tuple[NonNegative, NonNegative], _as_tuple(2)]
 Boundary = Literal["open", "periodic", "wall", "outflow"]
 # A name serves as an HDF5 group, a CSV field and a step of a dotted key: no / or comma or dot, and no number.
 # \w is a letter or digit of any alphabet, [^\W\d] the same without the digits.

@@ -9,7 +9,7 @@ from pydantic import ValidationError
 from dilatedem.case import schema
 from dilatedem.case.lines import Path
 from dilatedem.errors import printable
-from dilatedem.structures.kinds import KINDS, SINGLE
+from dilatedem.structures.kinds import SINGLE
 
 # A value longer than this is cut in messages: a hull's vertices would bury the sentence.
 LONGEST_VALUE = 60
@@ -58,7 +58,7 @@ def _faults(item: dict, data: dict) -> list[tuple[Path, str]]:
     if item["type"] == "extra_forbidden":
         return [(path, _unknown(path, data))]
     if item["type"] in ("union_tag_invalid", "union_tag_not_found"):
-        kinds = [kind.model_fields["kind"].annotation.__args__[0] for kind in (SINGLE if "part" in path else KINDS)]
+        kinds = _kinds(path)
         path = (*path, "kind")
         if item["type"] == "union_tag_invalid":
             return [(path, _choice(kinds, str(context["tag"])))]
@@ -72,10 +72,20 @@ def _faults(item: dict, data: dict) -> list[tuple[Path, str]]:
     return [(path, _allowed(item["type"], context, item["msg"], _value(path, data)))]
 
 
+def _kinds(path: Path) -> list[str]:
+    """What may stand under `kind` in the table at `path`."""
+    if path[-1] == "support":
+        return list(schema.SUPPORTS)
+    return [name for name, kind in schema.STRUCTURES.items() if "part" not in path or kind in SINGLE]
+
+
 def _without_kind(path: Path) -> Path:
-    # pydantic names the kind of a structure, and of its part, after the number; the case file does not.
+    # pydantic names the kind of a structure, of its part and of a support after them; the case file does not.
     for where, table in ((2, "structure"), (4, "part")):
         if len(path) > where and path[where - 2] == table and path[where] in schema.STRUCTURES:
+            path = (*path[:where], *path[where + 1 :])
+    for where in (3, 5):
+        if len(path) > where and path[where - 1] == "support" and path[where] in schema.SUPPORTS:
             path = (*path[:where], *path[where + 1 :])
     return path
 

@@ -14,6 +14,7 @@ from pydantic import ValidationError
 from dilatedem.case import faults
 from dilatedem.case.limits import MOST_FAULTS, impossible
 from dilatedem.case.lines import Path, line_numbers, line_of
+from dilatedem.case.motion import fill_tables
 from dilatedem.case.overrides import Override, apply, parse
 from dilatedem.case.schema import Case
 from dilatedem.errors import CaseError
@@ -111,6 +112,7 @@ def _validated(source: Source, data: dict, laid_over: Sequence[Override]) -> Cas
     """The case of `data`, which the overrides change. Fails as `load` does."""
     written = [(apply(data, override), override) for override in laid_over]
     _accepted(source, data, written)
+    fill_tables(data, FilePath(source.name).parent)
     try:
         return Case.model_validate(data, context={"folder": FilePath(source.name).parent})
     except ValidationError as error:

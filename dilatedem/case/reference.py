@@ -8,7 +8,7 @@ from typing import Any
 
 from pydantic.fields import FieldInfo
 
-from dilatedem.case.schema import STRUCTURES, TABLES, Body, Case, json_schema
+from dilatedem.case.schema import STRUCTURES, SUPPORTS, TABLES, Body, Case, json_schema
 from dilatedem.keys import OTHER_RANGE, RANGES, Table
 
 PAGE = Path("docs", "case-file.md")
@@ -50,6 +50,8 @@ def page() -> str:
         elif name == "structure":
             for kind, structure in STRUCTURES.items():
                 parts += _section(f'[[structure]] kind = "{kind}"', structure, definitions)
+            for kind, support in SUPPORTS.items():
+                parts += _section(f'[[structure]] support = {{kind = "{kind}"}}', support, definitions)
         elif name == "body":
             parts += _section("[[body]]", Body, definitions)
     return "\n".join(parts)
@@ -84,6 +86,8 @@ def _keys(table: type[Table], names: list[str], schema: dict) -> str:
 
 def _allowed(node: dict) -> str:
     """The values a key takes, from its JSON Schema: what the program checks is what the page says."""
+    if "oneOf" in node:
+        return "table"
     if "anyOf" in node:
         return " or ".join(dict.fromkeys(_allowed(choice) for choice in node["anyOf"]))
     if "oneOf" in node:
@@ -113,6 +117,8 @@ def _default(field: FieldInfo) -> str:
 
 
 def _value(value: Any) -> str:
+    if isinstance(value, Table):
+        return f"{{{', '.join(f'{name} = {_value(item)}' for name, item in value)}}}"
     if isinstance(value, bool):
         return str(value).lower()
     if isinstance(value, str):

@@ -25,7 +25,7 @@ from dilatedem.keys import (
     complete,
     key,
 )
-from dilatedem.structures import kinds
+from dilatedem.structures import kinds, support
 from dilatedem.structures.held import name_of
 
 # Contact with a wall boundary is recorded under these names, so that no structure may take them.
@@ -318,13 +318,14 @@ TABLES: dict[str, type[Table]] = {
     if isinstance(field.annotation, type) and issubclass(field.annotation, Table)
 }
 STRUCTURES: dict[str, type[Table]] = dict(kinds.BY_NAME)
+SUPPORTS: dict[str, type[Table]] = dict(support.BY_NAME)
 
 
 def table_of(path: tuple[str | int, ...], data: dict) -> tuple[type[Table], str] | None:
     """The table that the key at or around `path` belongs to, and the key; None where there is none.
 
     path : keys and list positions from the top, as in ("structure", 0, "radius").
-    data : the case as read, not validated; it tells the kind of a structure.
+    data : the case as read, not validated; it tells the kind of a structure and of its support.
     """
     if len(path) == 1:
         return Case, str(path[0])
@@ -339,6 +340,8 @@ def table_of(path: tuple[str | int, ...], data: dict) -> tuple[type[Table], str]
         table = data
         for step in path[:last]:
             table = table[step]
+        if path[last] == "support" and len(path) > last + 1:
+            return SUPPORTS[table["support"]["kind"]], str(path[last + 1])
         return STRUCTURES[table["kind"]], str(path[last])
     except (KeyError, IndexError, TypeError):
         return None

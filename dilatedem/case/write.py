@@ -49,13 +49,14 @@ def digest(case: Case) -> str:
 
 
 def _table(header: str, table: Table) -> str:
-    lines = [f"{header}\n"]
-    arrays = _arrays(table)
+    lines, inner, arrays = [f"{header}\n"], [], _arrays(table)
     for name, field in type(table).model_fields.items():
         value = getattr(table, name)
-        if value is not None and name not in arrays:
+        if isinstance(value, Table):
+            inner.append(_table(f"[{header.strip('[]')}.{name}]", value))
+        elif value is not None and name not in arrays:
             lines.append(_line(name, value, field.json_schema_extra["unit"]))
-    return "".join(lines)
+    return "".join([*lines, *inner])
 
 
 def _line(name: str, value: object, unit: str = "") -> str:

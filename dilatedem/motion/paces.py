@@ -10,6 +10,7 @@ hundreds. Nothing can be missed: a busy body that is about to leave its room (so
 from math import sqrt
 
 from dilatedem.jit import item
+from dilatedem.motion.carry import carried_travel
 from dilatedem.motion.integrate import travel
 from dilatedem.state.response import is_free
 
@@ -34,7 +35,7 @@ def foresee(dt, span, model, bodies, pairs, workspace):
     limit = LONGEST_MOVE * pairs.limit[0]
     while not _give_room(span, span * dt, model, bodies, pairs, workspace) <= limit and span > 1:
         span //= 2
-    near = _near_pairs(bodies, pairs, workspace)
+    near = _near_pairs(model.solids, bodies, pairs, workspace)
     busy, idle = _by_pace(bodies, workspace)
     return span, near, busy, idle
 
@@ -51,6 +52,9 @@ def _give_room(span, time, model, bodies, pairs, workspace):
         if is_free(i, solids):
             way = travel(i, time, solids, bodies, model.shapes.reach[i], pairs.frame)
             longest = way if not way <= longest else longest  # also where it is no number
+        elif solids.carried[i]:
+            way = carried_travel(i, time, bodies.velocity, bodies.angular_velocity, model.shapes.plan_reach, pairs.frame)
+            longest = way if not way <= longest else longest
         spare = share * way + least
         room[i] = way + spare
         horizon[i] = path[i] + way + HORIZON * spare
@@ -58,11 +62,14 @@ def _give_room(span, time, model, bodies, pairs, workspace):
 
 
 @item
-def _near_pairs(bodies, pairs, workspace):
-    """Pairs whose gap both rooms together could close, to `workspace.near`; their bodies are marked. Returns how many."""
+def _near_pairs(solids, bodies, pairs, workspace):
+    """Pairs whose gap both rooms together could close, to `workspace.near`; their bodies are marked. Returns how many.
+
+    So are all parts of structures that move: they share one motion, and one of them may be hit.
+    """
     path, room, near, is_busy = bodies.path, workspace.room, workspace.near, workspace.is_busy
     for i in range(len(path)):
-        is_busy[i] = False
+        is_busy[i] = solids.carried[i]
     found = 0
     for k in range(pairs.count[0]):
         a, b = pairs.a[k], pairs.b[k]

@@ -79,13 +79,15 @@ class PlanOutline(NamedTuple):
     """A structure in plan, at the water level.
 
     structure: name; kind: as in the case file; outline (k, 2) [m], none (0, 2) where the water level does not cut it; bounded:
-    whether the outline closes around it; else its first side is its face, and the solid goes on behind it.
+    whether the outline closes around it; else its first side is its face, and the solid goes on behind it; place (2,) [m]: about
+    which it turns where it moves, at t = 0.
     """
 
     structure: str
     kind: str
     outline: np.ndarray
     bounded: bool
+    place: np.ndarray
 
 
 class ContactStatistics(NamedTuple):
@@ -220,6 +222,7 @@ def _write_outline(group: h5py.Group, outline: PlanOutline) -> None:
     dimensions.write(group, "outline_m", outline.outline, "m", "outline in plan at the water level, counter-clockwise", axes)
     group.attrs["kind"] = outline.kind
     group.attrs["bounded"] = int(outline.bounded)
+    group.attrs["place_m"] = outline.place
 
 
 def _write_statistics(group: h5py.Group, statistics: ContactStatistics) -> None:

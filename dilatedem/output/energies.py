@@ -7,7 +7,7 @@ import numpy as np
 from dilatedem.numerics import balance
 from dilatedem.output import folder
 from dilatedem.output.observer import TableObserver
-from dilatedem.state.ledger import LOAD, STORED, TERMS
+from dilatedem.state.ledger import GAIN, LOAD, STORED, STRUCTURE, TERMS
 
 
 @dataclass
@@ -16,7 +16,7 @@ class Totals:
 
     initial_energy: float | None = None  # J
     largest_residual: float = 0.0  # J
-    largest_work: float = 0.0  # J, of all loads together, each by its size
+    largest_work: float = 0.0  # J, of all loads and drives together, each by its size
     largest_stored: float = 0.0  # J, all that is stored, each by its size
     largest_turned_over: float = 0.0  # J
     largest_kinetic: float = 0.0  # J
@@ -42,7 +42,7 @@ def work_up(noted: list[list[float]], names: list[str], totals: Totals) -> np.nd
         totals.initial = {term.name: float(values[term.name][0]) for term in there}
     values["residual"] = total - totals.initial_energy
     totals.largest_residual = max(totals.largest_residual, float(np.abs(values["residual"]).max()))
-    work = sum(np.abs(values[term.name]) for term in there if term.owner == LOAD)
+    work = sum(np.abs(values[term.name]) for term in there if term.sign == GAIN and term.owner in (LOAD, STRUCTURE))
     totals.largest_work = max(totals.largest_work, float(np.max(work)))
     stored = balance.sizes(values[term.name] for term in there if term.sign == STORED)
     totals.largest_stored = max(totals.largest_stored, float(np.max(stored)))

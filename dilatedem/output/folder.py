@@ -16,7 +16,9 @@ HITS = "hits.csv"
 BODIES = "bodies.csv"
 ICE_COLLECTION = "ice.pvd"
 SNAPSHOTS = "snapshots"
-STRUCTURES = "structures.vtu"
+STRUCTURES = "structures.vtu"  # those that are held; those that move:
+STRUCTURE_MOTION = "structures.csv"
+STRUCTURE_COLLECTION = "structures.pvd"
 RUN_ARCHIVE = "run.h5"
 CHECKPOINT = "restart.h5"
 STOPPED = "stopped.h5"
@@ -27,18 +29,24 @@ FIGURES = "figures"
 RUN_MARKS = (CASE, FORCES, CHECKPOINT, SUMMARY)  # any one of them, and the folder holds a run
 #: files that a run replaces and removes, case.toml last: as long as it is there, the folder holds a run that may be replaced
 FILES = (
-    CHECKPOINT, STOPPED, SUMMARY, RUN_ARCHIVE, FORCES, HITS, ENERGY, BODIES, ICE_COLLECTION, STRUCTURES, REPORT, CASE,
+    CHECKPOINT, STOPPED, SUMMARY, RUN_ARCHIVE, FORCES, HITS, ENERGY, BODIES, ICE_COLLECTION, STRUCTURES, STRUCTURE_MOTION,
+    STRUCTURE_COLLECTION, REPORT, CASE,
 )  # fmt: skip
 #: of what lies in folders, the same
 PARTS = {
-    SNAPSHOTS: re.compile(r"ice_\d{6,}\.vtu(\.tmp)?"),
-    FIGURES: re.compile(r"(field|plan|speed|energy|force_.+|peak_.+|load_.+|hit_.+)\.(png|svg)(\.tmp)?"),
+    SNAPSHOTS: re.compile(r"(ice|structures)_\d{6,}\.vtu(\.tmp)?"),
+    FIGURES: re.compile(r"(field|plan|speed|energy|motion_.+|force_.+|peak_.+|load_.+|hit_.+)\.(png|svg)(\.tmp)?"),
 }
 
 
 def snapshot_name(number: int) -> str:
     """Path of snapshot `number`, relative to the run folder, as the collection ice.pvd lists it."""
     return f"{SNAPSHOTS}/ice_{number:06d}.vtu"
+
+
+def structures_name(number: int) -> str:
+    """The same of the structures that move, as the collection structures.pvd lists them."""
+    return f"{SNAPSHOTS}/structures_{number:06d}.vtu"
 
 
 def holds_run(folder) -> bool:

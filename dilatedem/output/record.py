@@ -12,6 +12,9 @@ from dilatedem.state.ledger import TERMS
 from dilatedem.state.loads import HEIGHT_BINS, PLACE_BINS
 from dilatedem.structures.kind import Sketch
 
+#: where the first axis of a load map lies, of a structure that moves
+GOES_WITH = "; the map goes with the structure, of which this is said at t = 0"
+
 
 class Record(Observer):
     """Written whenever the state is saved: it is small."""
@@ -52,9 +55,10 @@ class Record(Observer):
                 continue
             chart, charts = structure.chart, simulation.model.charts
             low, high = charts.heights[s]
+            zero = f"{chart.zero}{GOES_WITH if structure.support.moves else ''}"
             maps.append(LoadMap(
                 structure=structure.name, kind=structure.about.kind, impulse=impulse[charts.map[s]].copy(), place=chart.place,
-                label=chart.label, zero=chart.zero, edges=chart.edges(PLACE_BINS),
+                label=chart.label, zero=zero, edges=chart.edges(PLACE_BINS),
                 height_edges=np.linspace(low, high, HEIGHT_BINS + 1), duration_s=simulation.time_s,
                 center=structure.about.place[:2] if chart.origin is None else chart.origin, radius=chart.radius, axis=chart.axis,
                 upstream_deg=direction(-u, -v),
@@ -81,7 +85,7 @@ class Record(Observer):
         extent, outlines = math.hypot(*self.simulation.case.domain.size), []
         for structure in self.simulation.scene.structures:
             sketch = structure.about.sketch(extent) or Sketch(np.zeros((0, 2)), bounded=False)
-            outlines.append(PlanOutline(structure.name, structure.about.kind, sketch.outline, sketch.bounded))
+            outlines.append(PlanOutline(structure.name, structure.about.kind, sketch.outline, sketch.bounded, structure.place[:2]))
         return outlines
 
     def close(self) -> None:

@@ -28,6 +28,7 @@ BODIES_COLUMNS = (
     "time_s", "body", "x_m", "y_m", "z_m", "qw", "qx", "qy", "qz", "vx_m_s", "vy_m_s", "vz_m_s",
     "wx_rad_s", "wy_rad_s", "wz_rad_s",
 )  # fmt: skip
+STRUCTURES_COLUMNS = ("time_s", "structure", "x_m", "y_m", "yaw_rad", "vx_m_s", "vy_m_s", "reaction_x_N", "reaction_y_N")
 
 TEXT_COLUMNS = frozenset({"structure", "mode"})
 # Nine digits: below the error of any figure in the tables; times stay readable (0.3, not 0.30000000000000004)

@@ -91,7 +91,7 @@ def energy_change(energy: Table, names: tuple[str, ...]) -> np.ndarray:
 
 def residual_share(energy: Table) -> float | None:
     """Largest residual over the largest work of all loads, each by its size; None where they did none but round-off."""
-    loads = [name for name in energy if name.startswith("work_") and name != "work_structure"]
+    loads = [name for name in energy if name.startswith("work_")]
     if "residual" not in energy or not loads or not len(energy["time_s"]):
         return None
     stored = [name for name in STORED if name in energy]

@@ -59,10 +59,10 @@ def field_figure(run: RunFolder, outlines: list[np.ndarray]) -> Drawing:
 @styled
 def plan_figure(run: RunFolder, snapshots: list[Snapshot]) -> Drawing:
     """The floes at their true place and shape at each of these times."""
-    view = choose_view(run, [snapshot.outlines for snapshot in snapshots])
+    view = choose_view(run, [snapshot.outlines for snapshot in snapshots], [snapshot.time for snapshot in snapshots])
     figure, panels = panel_grid(view, len(snapshots))
     for axes, snapshot in zip(panels, snapshots, strict=True):
-        draw_scene(axes, run, snapshot.outlines, view, fixed=fixed_floes(run, snapshot.body))
+        draw_scene(axes, run, snapshot.outlines, view, fixed=fixed_floes(run, snapshot.body), time=snapshot.time)
         axes.set_title(f"t = {number(snapshot.time)} s")
     draw_flows(panels[0], run)
     words = f"{scene_words(run)}.{drift_words(run)}"
@@ -73,7 +73,7 @@ def plan_figure(run: RunFolder, snapshots: list[Snapshot]) -> Drawing:
 @styled
 def speed_figure(run: RunFolder, snapshots: list[Snapshot]) -> Drawing:
     """The same views, floes coloured by their speed over ground."""
-    view = choose_view(run, [snapshot.outlines for snapshot in snapshots])
+    view = choose_view(run, [snapshot.outlines for snapshot in snapshots], [snapshot.time for snapshot in snapshots])
     figure, panels = panel_grid(view, len(snapshots), bar=True)
     highest = speed_scale(run, snapshots)
     floes, fastest = None, 0.0
@@ -82,7 +82,7 @@ def speed_figure(run: RunFolder, snapshots: list[Snapshot]) -> Drawing:
         draw_domain(axes, run)
         style = {"cmap": SPEED_MAP, "clim": (0.0, highest), "edgecolors": ICE_EDGE, "linewidths": 0.35}
         floes = draw_floes(axes, run, view, snapshot.outlines, array=snapshot.speed, **style)
-        draw_structures(axes, run)
+        draw_structures(axes, run, snapshot.time)
         axes.set_title(f"t = {number(snapshot.time)} s")
         fastest = max(fastest, float(snapshot.speed.max(initial=0.0)))
     draw_flows(panels[0], run)
@@ -99,13 +99,15 @@ def speed_figure(run: RunFolder, snapshots: list[Snapshot]) -> Drawing:
     return Drawing("speed", "Speed of the floes", caption, figure)
 
 
-def draw_scene(axes: Axes, run: RunFolder, outlines: list[np.ndarray], view: View, *, fixed: np.ndarray) -> None:
-    """White floes on water, the domain and the structures."""
+def draw_scene(
+    axes: Axes, run: RunFolder, outlines: list[np.ndarray], view: View, *, fixed: np.ndarray, time: float = 0.0
+) -> None:
+    """White floes on water, the domain, and the structures where they are at a time [s]."""
     dress(axes, run, view, water=WATER)
     draw_domain(axes, run)
     colours = np.where(fixed, FAST_ICE, ICE)
     draw_floes(axes, run, view, outlines, facecolors=list(colours), edgecolors=ICE_EDGE, linewidths=0.5)
-    draw_structures(axes, run)
+    draw_structures(axes, run, time)
 
 
 def fixed_floes(run: RunFolder, body: np.ndarray) -> np.ndarray:

@@ -19,6 +19,7 @@ from dilatedem.post.figures_field import field_figure, plan_figure, speed_figure
 from dilatedem.post.figures_hits import hit_figure
 from dilatedem.post.figures_loads import force_figure, peak_figure
 from dilatedem.post.figures_map import load_around_figure, load_map_figure
+from dilatedem.post.figures_motion import motion_figure
 from dilatedem.post.figures_sweep import sweep_figure
 from dilatedem.post.harm import COMPARISON_TABLE, refuse_harm, refuse_harm_beside
 from dilatedem.post.loads import angular_statistics, event_statistics, hit_statistics, hit_threshold, load_statistics
@@ -125,6 +126,7 @@ def run_drawings(run: RunFolder) -> list[Drawing]:
             drawings.append(load_map_figure(load_map, upstream, afloat=run.afloat, outline=outline))
     if run.floes is not None:
         drawings += [hit_figure(run, hit, place) for place, hit in enumerate(run.kept_hits, start=1)]
+    drawings += [motion_figure(name, motion, run.forces.get(name)) for name, motion in run.motion.items() if row_count(motion)]
     if row_count(run.energy):
         drawings.append(energy_figure(run.energy, run.energy_labels))
     return [drawing for drawing in drawings if drawing is not None]

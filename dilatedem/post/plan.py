@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -50,8 +51,8 @@ def drawn_limits(run: RunFolder, view: View) -> tuple[tuple[float, float], tuple
     return x, y
 
 
-def choose_view(run: RunFolder, fields: list[list[np.ndarray]]) -> View:
-    """The domain, and beyond its open sides as far as the floes of these fields went, up to DRIFT_SHOWN."""
+def choose_view(run: RunFolder, fields: list[list[np.ndarray]], times: Sequence[float] = (0.0,)) -> View:
+    """The domain, and beyond its open sides as far as the floes of these fields went, up to DRIFT_SHOWN, and the structures."""
     limits = [list(axis) for axis in domain_limits(run)]
     points = [outline for outlines in fields for outline in outlines if len(outline) > 2]
     stacked = np.concatenate(points) if points else np.zeros((1, 2))
@@ -61,7 +62,7 @@ def choose_view(run: RunFolder, fields: list[list[np.ndarray]]) -> View:
         reach = DRIFT_SHOWN * (high - low)
         limits[axis][0] = max(low - reach, min(low, float(stacked[:, axis].min())))
         limits[axis][1] = min(high + reach, max(high, float(stacked[:, axis].max())))
-        for structure in run.outlines.values():
+        for structure in (structure for time in times for structure in run.outlines_at(time).values()):
             if structure.bounded and len(structure.outline):
                 places = structure.outline[:, axis]
                 limits[axis] = [min(limits[axis][0], float(places.min())), max(limits[axis][1], float(places.max()))]
@@ -121,9 +122,9 @@ def draw_domain(axes: Axes, run: RunFolder) -> None:
             axes.plot(x, y, zorder=3, scalex=False, scaley=False, **line)
 
 
-def draw_structures(axes: Axes, run: RunFolder) -> None:
-    """Structures filled; unbounded ones as the line of their face, hatched on the solid side."""
-    for structure in run.outlines.values():
+def draw_structures(axes: Axes, run: RunFolder, time: float = 0.0) -> None:
+    """Structures filled, where they are at a time [s]; unbounded ones as the line of their face, hatched on the solid side."""
+    for structure in run.outlines_at(time).values():
         outline = structure.outline
         if not len(outline):
             continue

@@ -7,6 +7,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from dilatedem.results.archive import ContactStatistics, FloeTable, LoadMap, PlanOutline, read_archive
 from dilatedem.results.files import list_snapshots, read_case, read_summary
 from dilatedem.results.hits import KeptHit
@@ -31,6 +33,7 @@ class RunFolder:
     energy_labels: dict[str, str] = field(default_factory=dict)  # terms of energy.csv in words
     hits: dict[str, Table] = field(default_factory=dict)  # load events, by structure
     kept_hits: list[KeptHit] = field(default_factory=list)  # the highest of them at every step
+    motion: dict[str, Table] = field(default_factory=dict)  # of structures that move, by structure
 
     @property
     def title(self) -> str:
@@ -39,6 +42,21 @@ class RunFolder:
     @property
     def structures(self) -> list[dict[str, Any]]:
         return list(self.case.get("structure", []))
+
+    def outlines_at(self, time: float) -> dict[str, PlanOutline]:
+        """The structures in plan as they stood at a time [s], in the domain along its periodic axes."""
+        found = dict(self.outlines)
+        for name, outline in self.outlines.items():
+            motion = self.motion.get(name.partition("/")[0])  # a part goes with its structure
+            if motion and row_count(motion):
+                x, y, yaw = (float(np.interp(time, motion["time_s"], motion[column])) for column in ("x_m", "y_m", "yaw_rad"))
+                found[name] = self._wrapped(outline.moved(np.array([x, y]), yaw))
+        return found
+
+    def _wrapped(self, outline: PlanOutline) -> PlanOutline:
+        periods = np.where([side == "periodic" for side in self.boundaries], self.domain_size, np.inf)
+        turns = np.floor(outline.place / periods + 0.5)
+        return outline.moved(np.where(turns != 0.0, -turns * np.array(self.domain_size), 0.0), 0.0)
 
     @property
     def domain_size(self) -> tuple[float, float]:
@@ -125,4 +143,5 @@ def open_run(folder: Path) -> RunFolder:
         energy_labels=archive.energy_labels,
         hits=split_by_structure(_sound(folder / "hits.csv"), case),
         kept_hits=archive.hits,
+        motion=split_by_structure(_sound(folder / "structures.csv"), case),
     )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from copy import deepcopy
 from pathlib import Path
 from typing import Any
 
@@ -25,13 +26,13 @@ PAIRS = {"ice_ice": "floe on floe", "ice_structure": "floe on structure"}
 
 LIMITS = (
     "Floes are rigid: they do not crush, split, raft or ridge, though some of these peaks would break real ice.",
-    "The structure does not give way; its own compliance would soften the peaks.",
     "The water is a uniform current without waves, and the ice does not change its flow. Its drag acts on "
     "the whole wetted surface of a floe: about ten times the drag of a formula for the frontal area.",
     "Peaks last tens of milliseconds, and their height and number vary from one random field to the next: "
     "judge by several seeds, not by one run.",
     "Times of hits above their threshold are counted in whole windows of forces.csv, too long by up to two windows each.",
 )
+LIMITS_OF_HELD = "The structure does not give way; its own compliance would soften the peaks."
 LIMITS_OF_LIU2015 = (
     "Contact laws are those of Liu, Long & Ji (2015), mode by mode. They jump where a contact changes its "
     "mode, by factors up to some hundreds at 0.1 mm overlap; the laws for parallel edges stand for a contact "
@@ -59,9 +60,9 @@ def write_run_report(run: RunFolder, statistics: dict[str, Any], figures: list[t
         doubts=statistics["doubts"],
         loads=[
             {
-                "name": name, "rows": load_rows(entry, run.moment_level), "quantiles": quantile_table(entry),
-                "step": step_rows(run.summary, name), "one_hit": ONE_HIT, "events": event_rows(run, name),
-                "pressures": pressure_words(run, name, entry),
+                "name": name, "rows": load_rows(entry, run.moment_level) + motion_rows(run.summary, name),
+                "quantiles": quantile_table(entry), "step": step_rows(run.summary, name), "one_hit": ONE_HIT,
+                "events": event_rows(run, name), "pressures": pressure_words(run, name, entry),
             }  # fmt: skip
             for name, entry in statistics["loads"].items()
         ],
@@ -157,6 +158,17 @@ def load_rows(statistics: dict[str, Any], level: float = 0.0) -> Rows:
         zero = around["zero_of_angles"]
         rows.append([f"centre of the load, 0° = {zero}", number(around["centre_of_load_from_zero_deg"], 3), "°"])
     return rows
+
+
+def motion_rows(summary: dict[str, Any], structure: str) -> Rows:
+    """How far a structure that moves came, and what its base bore at most; none of one that is held."""
+    most = (summary.get("motion") or {}).get(structure)
+    if not most:
+        return []
+    return [
+        ["largest displacement", number(most["displacement_max_m"], 4), f"m, at {number(most['displacement_max_time_s'], 5)} s"],
+        ["largest force on its base", kilo(most["reaction_max_N"]), f"kN, at {number(most['reaction_max_time_s'], 5)} s"],
+    ]
 
 
 def step_rows(summary: dict[str, Any], structure: str) -> Rows:
@@ -258,9 +270,13 @@ def fact_rows(run: RunFolder) -> Rows:
 def case_rows(case: dict[str, Any]) -> Rows:
     """Key, value and unit of the whole case."""
     bodies = case.get("body", [])
-    shown = dict(case)
+    shown = deepcopy(case)
     if len(bodies) > BODIES_LISTED:
         shown["body"] = f"{len(bodies)} explicit bodies, see case.toml"
+    for structure in shown.get("structure", []):
+        table = structure.get("support", {}).get("table")
+        if table:
+            structure["support"]["table"] = f"{len(table)} rows, see case.toml"
     units = {key: "" if isinstance(value, str) else describe_key(key)[1] for key, value in flatten(shown).items()}
     return [[key, show(value), units[key]] for key, value in flatten(shown).items()]
 
@@ -273,6 +289,8 @@ def version_rows(summary: dict[str, Any]) -> Rows:
 def limits(run: RunFolder) -> list[str]:
     """What the reader must not expect of these numbers."""
     sentences = list(LIMITS)
+    if not run.motion:
+        sentences.insert(1, LIMITS_OF_HELD)
     if run.case.get("contact", {}).get("model", "liu2015") == "liu2015":
         sentences.insert(0, LIMITS_OF_LIU2015)
     if run.summary.get("status") != "completed":

@@ -44,6 +44,14 @@ class PlanOutline:
 
     outline: np.ndarray  # (corners, 2) [m]; none where the water level does not cut it
     bounded: bool  # whether the outline closes around it; else its first side is its face, and the solid goes on behind it
+    place: np.ndarray = field(default_factory=lambda: np.zeros(2))  # [m] about which it turns where it moves
+
+    def moved(self, shift: np.ndarray, yaw: float) -> PlanOutline:
+        """The same after moving by `shift` (2,) [m] and turning by `yaw` [rad] about its place."""
+        s, c = math.sin(yaw), math.cos(yaw)
+        arm = self.outline - self.place
+        turned = np.column_stack([c * arm[:, 0] - s * arm[:, 1], s * arm[:, 0] + c * arm[:, 1]])
+        return PlanOutline(turned + self.place + shift, self.bounded, self.place + shift)
 
 
 @dataclass(frozen=True)
@@ -106,7 +114,8 @@ def _read(archive: h5py.File) -> Archive:
         found.hits = read_hits(archive["hits"], [as_text(name) for name in archive["contacts"].attrs["mode_names"]])
     for name, group in groups_with(archive.get("structures", {}), "outline_m"):
         outline = require_array(group["outline_m"][()], (None, 2), f"the outline of {name}")
-        found.outlines[name] = PlanOutline(outline, bool(group.attrs["bounded"]))
+        place = require_array(group.attrs.get("place_m", np.zeros(2)), (2,), f"the place of {name}")
+        found.outlines[name] = PlanOutline(outline, bool(group.attrs["bounded"]), place)
     return found
 
 

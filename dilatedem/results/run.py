@@ -78,8 +78,8 @@ class Run:
 
     @cached_property
     def structures(self) -> pandas.DataFrame:
-        """structures.csv: motion of the structures that move."""
-        return read_frame(self.path / "structures.csv")
+        """structures.csv: motion of the structures that move, and what their bases bear; a run without such has no file."""
+        return self._frame("structures.csv")
 
     def _frame(self, name: str) -> pandas.DataFrame:
         """A table that every run writes in one form. Raises CaseError where there is none or it is damaged."""

@@ -32,9 +32,10 @@ REQUIRED = {
         "structure", "start_s", "rise_s", "duration_s", "peak_N", "peak_time_s", "impulse_Ns", "body", "mode", "area_m2",
         "pressure_Pa", "crushed_m", "bodies",
     ),
+    "structures.csv": ("time_s", "structure", "x_m", "y_m", "yaw_rad", "vx_m_s", "vy_m_s", "reaction_x_N", "reaction_y_N"),
 }  # fmt: skip
 #: what tells rows of one time apart
-SERIES = {"forces.csv": "structure", "bodies.csv": "body", "hits.csv": "structure"}
+SERIES = {"forces.csv": "structure", "bodies.csv": "body", "hits.csv": "structure", "structures.csv": "structure"}
 #: the column of times, which go on from row to row of a series
 TIME = {"hits.csv": "start_s"}
 
@@ -109,7 +110,8 @@ def _list(check: Check) -> Check:
 _CASE = _table(
     title=_text, domain=_table(size=_vector(_length), x_boundary=_text, y_boundary=_text), field=_table(seed=_whole), ice=_table(),
     water=_table(enabled=_truth, velocity=_vector(_number)), wind=_table(), gravity=_table(), contact=_table(model=_text),
-    time=_table(duration=_length), output=_table(snapshot_interval=_number), structure=_list(_table(name=_text, kind=_text)),
+    time=_table(duration=_length), output=_table(snapshot_interval=_number),
+    structure=_list(_table(name=_text, kind=_text, support=_table(kind=_text))),
     body=_list(_table(fixed=_truth)),
 )  # fmt: skip
 _figure = _maybe(_number)
@@ -118,7 +120,7 @@ _SUMMARY = _table(
     status=_text, message=_maybe(_text), title=_text, version=_text, versions=_table(rest=_text), seed=_maybe(_whole), floes=_whole,
     steps=_whole, dt_s=_maybe(_length), dt_critical_s=_maybe(_length), simulated_s=_figure, duration_s=_figure, wall_s=_figure,
     compile_s=_figure, threads=_whole, loads=_table(rest=_table(rest=_maybe(lambda value: _truth(value) and _number(value)))),
-    energy=_table(rest=_figure), contact=_table(),
+    energy=_table(rest=_figure), contact=_table(), motion=_table(rest=_table(rest=_number)),
     hits=_table(
         threshold_N=_figure, gap_s=_figure, meaning=_text, structures=_table(rest=_table(rest=_figure)),
     ),

@@ -5,6 +5,7 @@ import math
 import numpy as np
 
 from dilatedem.case.schema import Case
+from dilatedem.run.advice_driven import about_driven, extent, farthest
 from dilatedem.scene.overlaps import structures_in_each_other
 from dilatedem.scene.place import PlacedStructure, Scene, periodic_axes
 from dilatedem.state.bodies import Bodies
@@ -26,7 +27,7 @@ PASSED_BY = {"wall": 0.0, "outflow": 1.0}
 def advice(case: Case, scene: Scene, model: Model, bodies: Bodies, *, share: float) -> list[str]:
     """Sentences about a simulation at t = 0; share: time step over the critical one."""
     found = [_about_step(share), _about_window(case, share), _about_thickness(case, scene)]
-    found += _about_structures(case, scene, model, bodies)
+    found += _about_structures(case, scene, model, bodies) + about_driven(case, scene)
     return [sentence for sentence in found if sentence]
 
 
@@ -121,12 +122,15 @@ class _Ice:
         gap = float((np.hypot(*offset.T) - self.reach - reach).min())
         fastest = max(float(np.hypot(*self.velocity.T).max()), float(np.hypot(*self.current)), float(np.hypot(*self.wind)))
         duration = self.case.time.duration
-        if gap > fastest * duration:
+        driven = farthest(self.case, structure)
+        if gap > fastest * duration + driven:
+            if driven > 0.0:
+                return f"it lies {gap:.3g} m from the nearest floe, and is driven no farther than {driven:.3g} m"
             if fastest <= STILL:
                 return f"nothing moves, and it lies {gap:.3g} m from the nearest floe"
             far = f"{duration:g} s at {fastest:.3g} m/s are enough for {fastest * duration:.3g} m"
             return f"it lies {gap:.3g} m from the nearest floe, and {far}"
-        return self._why_not_along(offset, reach)
+        return self._why_not_along(offset, reach) if driven == 0.0 else ""
 
     def _why_not_over(self, parts: list[Part]) -> str:
         """As `why_not_at`, by the heights of a structure and of the ice, however it turns."""
@@ -143,8 +147,7 @@ class _Ice:
         """Centre in plan (2,) and radius [m] of a circle that holds a structure."""
         if not parts:  # a body that is held
             return structure.place[:2], float(self.every_reach[structure.about.number])
-        centre = np.mean([part.position[:2] for part in parts], axis=0)
-        return centre, max(float(np.hypot(*(part.position[:2] - centre))) + part.plan_reach for part in parts)
+        return extent(parts)
 
     def _why_not_along(self, offset: np.ndarray, reach: float) -> str:
         """As `why_not_at`, by the direction in which all ice drifts, if there is one; offset (n, 2) [m]: to the structure."""

@@ -25,6 +25,7 @@ from dilatedem.state.hits import no_hits
 from dilatedem.state.ledger import empty_ledger
 from dilatedem.state.loads import Windows, empty_loads
 from dilatedem.state.pairs import PackedPairs, packed, unpacked
+from dilatedem.state.supports import Excursions
 
 #: s between two copies of the state: longer ones cost less time, but the replays that begin at them cost more
 WINDOW = 0.25
@@ -51,6 +52,7 @@ class Copy(NamedTuple):
     moment: Moment
     bodies: Bodies
     pairs: PackedPairs
+    excursions: Excursions
 
     @classmethod
     def of(cls, state) -> "Copy":
@@ -58,6 +60,7 @@ class Copy(NamedTuple):
             Moment(state.clock.step.copy(), state.loads.step_load.copy()),
             Bodies(*(values.copy() for values in state.bodies)),
             packed(state.pairs),
+            Excursions(*(values.copy() for values in state.excursions)),
         )
 
     @property
@@ -124,7 +127,7 @@ class Watch:
 
     def restore(self, groups: dict[str, dict], figures: dict, *, where: str) -> None:
         """Take up `groups` and `figures` of a checkpoint. Raises CaseError as `checkpoint.restore`."""
-        kinds = {"moment": Moment, "bodies": Bodies, "pairs": PackedPairs}
+        kinds = {"moment": Moment, "bodies": Bodies, "pairs": PackedPairs, "excursions": Excursions}
         for name in COPIES:
             if f"{name}_moment" in groups:
                 parts = (checkpoint.restore(kind, groups[f"{name}_{part}"], where=where) for part, kind in kinds.items())
@@ -208,7 +211,8 @@ def replay(simulation, steps: int, parts: int, asked: Callable[[], bool]) -> dic
         simulation.state, bodies=Bodies(*(values.copy() for values in copy.bodies)),
         pairs=unpacked(copy.pairs, 2 * len(copy.pairs.a) + 64), ledger=empty_ledger(len(simulation.state.ledger.departed_work)),
         loads=empty_loads(len(loads.step_contacts), len(loads.impulse_map)), hits=no_hits(0),
-        clock=clock_at(copy.step * simulation.dt),
+        clock=clock_at(copy.step * parts, simulation.dt / parts),
+        excursions=Excursions(*(values.copy() for values in copy.excursions)),
     )  # fmt: skip
     again = replace(simulation, state=state, dt=simulation.dt / parts)
     left = steps * parts

@@ -19,6 +19,7 @@ from dilatedem.output.motion import TrackedBodies
 from dilatedem.output.observer import Observer
 from dilatedem.output.record import Record
 from dilatedem.output.snapshots import Snapshots
+from dilatedem.output.structures import StructureMotion, StructureSnapshots
 from dilatedem.output.summary import versions, write_summary
 from dilatedem.output.vtu import write_structures
 from dilatedem.run import error_check
@@ -44,7 +45,9 @@ class Checkpoints(Observer):
 
 
 #: all observers, in the order in which they look; the first one's interval is that of the windows of loads
-OBSERVERS: tuple[type[Observer], ...] = (Forces, LoadWatch, Hits, Energies, TrackedBodies, Snapshots, Record, Checkpoints)
+OBSERVERS: tuple[type[Observer], ...] = (
+    Forces, LoadWatch, Hits, Energies, StructureMotion, TrackedBodies, Snapshots, StructureSnapshots, Record, Checkpoints,
+)  # fmt: skip
 
 
 def intervals(case: Case) -> list[float]:
@@ -90,7 +93,8 @@ class RunFolder:
         header = f"# dilatedem {__version__}, seed {case.field.seed}\n\n"
         write_text(self._out / folder.CASE, header + write.dump(case))
         extent = math.hypot(*case.domain.size)
-        write_structures(self._out / folder.STRUCTURES, [structure.about.drawing(extent) for structure in scene.structures])
+        drawings = [[] if each.support.moves else each.about.drawing(extent) for each in scene.structures]
+        write_structures(self._out / folder.STRUCTURES, drawings)
 
     def __enter__(self) -> "RunFolder":
         return self

@@ -21,7 +21,7 @@ from dilatedem.run.faults import fault
 from dilatedem.run.hits import hit_log, hits_at_start
 from dilatedem.run.pace import free_span, time_step
 from dilatedem.run.views import Floes, Structures
-from dilatedem.scene.arrays import build_model, initial_bodies
+from dilatedem.scene.arrays import build_model, initial_bodies, initial_excursions
 from dilatedem.scene.overlaps import require_apart
 from dilatedem.scene.place import Scene, compose
 from dilatedem.state.bodies import Bodies, Ids
@@ -33,6 +33,7 @@ from dilatedem.state.model import Model
 from dilatedem.state.pairs import Pairs, empty_pairs, grown, in_use
 from dilatedem.state.setting import CRUSHING_SETTINGS
 from dilatedem.state.storage import Cells, Tally, Workspace, empty_tally, make_cells, make_workspace
+from dilatedem.state.supports import Excursions, support_energies
 from dilatedem.step.advance import advance
 from dilatedem.water.loads import WORKS, works_of
 
@@ -55,11 +56,12 @@ class State:
     loads: Loads
     hits: Hits
     clock: Clock
+    excursions: Excursions
     watch: Watch | None = None  # of the highest load, where `time.error_check` asks for it
 
     def groups(self) -> dict:
         """All arrays of the state, by name."""
-        own = {name: getattr(self, name) for name in ("ids", "bodies", "ledger", "loads", "hits", "clock")}
+        own = {name: getattr(self, name) for name in ("ids", "bodies", "ledger", "loads", "hits", "clock", "excursions")}
         return own | {"pairs": in_use(self.pairs)} | (self.watch.groups() if self.watch else {})
 
     def copies(self) -> dict:
@@ -115,7 +117,7 @@ class Simulation:
         watch = Watch(dt, span, len(scene.structures)) if case.time.error_check else None
         state = State(
             Ids(np.arange(scene.count)), bodies, empty_pairs(PAIRS_PER_BODY * scene.count + 64), empty_ledger(len(WORKS)),
-            loads, hits_at_start(case, dt), clock_at_start(), watch,
+            loads, hits_at_start(case, dt), clock_at_start(), initial_excursions(scene), watch,
         )  # fmt: skip
         return cls(case, scene, model, state, dt, critical, span, threads)
 
@@ -233,7 +235,7 @@ class Simulation:
         columns = {name: WORKS.index(name) for name in works_of(self.model.loads)}
         ledger, work = self.state.ledger, self.state.bodies.work
         done = {name: float(work[:, k].sum()) + float(ledger.departed_work[k]) for name, k in columns.items()}
-        done["work_structure"] = 0.0  # they do not move
+        done |= support_energies(self.model.supports, self.state.excursions)
         if self.events:
             done["carried_out"] = float(ledger.carried_out[0])
         absent = () if isinstance(self.model.contact, CRUSHING_SETTINGS) else ("loss_crushing",)
@@ -260,8 +262,8 @@ class Simulation:
             team = Alone() if alone else Team(self.crew.now)
         state = self.state
         return (
-            team, self.timer, self.model, state.ids, state.bodies, state.pairs, self.spare, self.cells, self.workspace, self.tally,
-            state.ledger, state.loads, self.windows, state.hits, self.log, state.clock,
+            team, self.timer, self.model, state.ids, state.bodies, state.excursions, state.pairs, self.spare, self.cells,
+            self.workspace, self.tally, state.ledger, state.loads, self.windows, state.hits, self.log, state.clock,
         )  # fmt: skip
 
     def next_event(self, step: int) -> int:

@@ -69,13 +69,23 @@ class StructureNow:
     """One structure, or several together, at this moment."""
 
     def __init__(self, simulation, number: int):
-        self._loads, self._charts, self._number = simulation.state.loads, simulation.model.charts, number
+        self._loads, self._excursions, self._number = simulation.state.loads, simulation.state.excursions, number
         self.name = simulation.scene.records[number].name
 
     @property
     def load(self) -> np.ndarray:
         """(6,) force [N] of the ice on it in the last step, and moment [N m] about its centre at `output.moment_level`."""
         return self._loads.step_load[self._number].copy()
+
+    @property
+    def displacement(self) -> np.ndarray:
+        """(3,) how far it is from its place along x and y [m] and about z [rad]; zero where it is held."""
+        return self._excursions.displacement[self._number].copy()
+
+    @property
+    def velocity(self) -> np.ndarray:
+        """(3,) along x and y [m/s] and about z [rad/s]."""
+        return self._excursions.velocity[self._number].copy()
 
     @property
     def contacts(self) -> int:

@@ -10,6 +10,7 @@ from dilatedem.geometry.shapes import pack_hulls, pack_shapes, tapered
 from dilatedem.numerics.blocks import offsets
 from dilatedem.numerics.frames import matrix_from_quaternion
 from dilatedem.numerics.plain import inverse, turned
+from dilatedem.scene.carriage import pack_supports, places, velocities_at_start
 from dilatedem.scene.place import Scene, periodic_axes
 from dilatedem.scene.records import flow_direction
 from dilatedem.state.bodies import Bodies, Solids, bodies_at_rest
@@ -17,6 +18,7 @@ from dilatedem.state.charts import Along, Charts
 from dilatedem.state.model import Model
 from dilatedem.state.records import records_of
 from dilatedem.state.setting import CONTACT_SETTINGS, ContactSetting, Surroundings
+from dilatedem.state.supports import Excursions, Supports, excursions_at_start
 from dilatedem.structures.held import HeldBody
 from dilatedem.structures.kind import Part
 from dilatedem.water.loads import WORKS, load_setting
@@ -35,18 +37,20 @@ def build_model(case: Case, scene: Scene) -> Model:
     shapes.plan_reach[scene.count :] = [part.plan_reach for part in parts]
     periodic = periodic_axes(case)
     _require_one_image(case, shapes.reach[: scene.count], cores, periodic)
+    supports = pack_supports(scene)
     return Model(
         floating=scene.count,
         structure_of=np.concatenate([_held(scene), _numbers(scene)]).astype(np.int64),
-        whole_of=_wholes(scene),
+        whole_of=scene.whole_of(),
         shapes=tapered(shapes, np.concatenate([np.zeros(scene.count), [part.taper for part in parts]])),
         hulls=pack_hulls(scene.shapes, scene.order),
-        solids=_solids(case, scene),
+        solids=_solids(case, scene, supports),
         contact=_contact_setting(case),
         loads=load_setting(case),
         surroundings=Surroundings(*np.where(periodic, case.domain.size, 0.0).tolist()),
         charts=_pack_charts(case, scene),
         records=records_of([record.members for record in scene.records], flow_direction(case)),
+        supports=supports,
     )
 
 
@@ -57,12 +61,6 @@ def _parts(scene: Scene) -> list[Part]:
 def _numbers(scene: Scene) -> np.ndarray:
     """The structure that each part belongs to, by number."""
     return np.repeat(np.arange(len(scene.structures)), [len(structure.parts) for structure in scene.structures])
-
-
-def _wholes(scene: Scene) -> np.ndarray:
-    """The structure that each structure is a part of, by number; -1 = none."""
-    number = {id(structure): s for s, structure in enumerate(scene.structures)}
-    return np.array([number[id(structure.whole)] if structure.whole else -1 for structure in scene.structures], np.int64)
 
 
 def _held(scene: Scene) -> np.ndarray:
@@ -100,8 +98,8 @@ def _require_one_image(case: Case, reach: np.ndarray, cores: list[Part], periodi
         raise CaseError(f"{where}the two largest bodies could meet on both sides at once")
 
 
-def _solids(case: Case, scene: Scene) -> Solids:
-    """Masses, elasticity and friction; structures are of infinite mass."""
+def _solids(case: Case, scene: Scene, supports: Supports) -> Solids:
+    """Masses, elasticity and friction; structures give way by what their supports let them."""
     bodies = scene.count
     of_structures = [_compliance(structure.about) for structure in scene.structures for _ in structure.parts]
     count = bodies + len(of_structures)
@@ -116,7 +114,11 @@ def _solids(case: Case, scene: Scene) -> Solids:
     moving = np.flatnonzero(free)
     inverse_mass[moving] = 1.0 / mass[moving]
     inverse_inertia[moving] = inverse(inertia[moving])
-    return Solids(inverse_mass, mass, inertia, inverse_inertia, compliance, _friction(case, scene))
+    carried, give, seat = np.zeros(count, np.bool_), np.zeros((count, 2)), np.zeros((count, 3))
+    parts, of_part = bodies + supports.part, np.repeat(supports.moving, np.diff(supports.part_start))
+    carried[parts], give[parts] = True, supports.inverse_mass[of_part][:, [0, 2]]
+    seat[parts] = turned(matrix_from_quaternion(supports.upright).swapaxes(1, 2), supports.seat)
+    return Solids(inverse_mass, mass, inertia, inverse_inertia, compliance, _friction(case, scene), carried, give, seat)
 
 
 def _friction(case: Case, scene: Scene) -> np.ndarray:
@@ -148,10 +150,25 @@ def initial_bodies(case: Case, scene: Scene, model: Model) -> Bodies:
             bodies.angular_momentum[i] = turned(turn, turned(model.solids.inertia[i], spin))
     for i, part in enumerate(parts, start=scene.count):
         bodies.position[i], bodies.orientation[i] = part.position, part.orientation
+    _start_driven(scene, model, bodies)
     bodies.middle_velocity[:] = bodies.velocity
     bodies.middle_angular_velocity[:] = bodies.angular_velocity
     bodies.middle_angular_momentum[:] = bodies.angular_momentum
     return bodies
+
+
+def _start_driven(scene: Scene, model: Model, bodies: Bodies) -> None:
+    """The parts of structures that are driven, as fast as they are at the start."""
+    supports = model.supports
+    part = scene.count + supports.part
+    u, v, spin = velocities_at_start(scene)[np.repeat(supports.moving, np.diff(supports.part_start))].T
+    bodies.velocity[part, 0], bodies.velocity[part, 1] = u - spin * supports.seat[:, 1], v + spin * supports.seat[:, 0]
+    bodies.angular_velocity[part, 2] = spin
+
+
+def initial_excursions(scene: Scene) -> Excursions:
+    """All structures at their places, those that are driven as fast as their supports say."""
+    return excursions_at_start(places(scene), velocities_at_start(scene))
 
 
 def _pack_charts(case: Case, scene: Scene) -> Charts:
@@ -172,7 +189,7 @@ def _pack_charts(case: Case, scene: Scene) -> Charts:
         elif chart.along == Along.OUTLINE:
             length[s] = perimeter(chart.outline)
     return Charts(
-        center=np.reshape([record.place for record in scene.records], (-1, 3)),
+        center=places(scene),
         map=np.where(mapped, np.cumsum(mapped) - 1, -1),
         along=along,
         origin=origin,

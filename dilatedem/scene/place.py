@@ -25,6 +25,7 @@ from dilatedem.state.storage import MOST_CORNERS
 from dilatedem.structures.held import HeldBody
 from dilatedem.structures.kind import Chart, Part, Structure, member_name
 from dilatedem.structures.plane import Plane
+from dilatedem.structures.support import Support
 
 #: corners of a face after clipping by another: both counts together have to fit into the workspace
 MOST_FACE_CORNERS = MOST_CORNERS // 2 - 1
@@ -66,6 +67,11 @@ class PlacedStructure:
         """(3,) [m] the point about which its moments are stated: of all parts of a structure the same."""
         return self.whole.place if self.whole else self.about.place
 
+    @property
+    def support(self) -> Support:
+        """What carries it: all parts of a structure together."""
+        return self.whole.support if self.whole else self.about.support
+
 
 @dataclass(frozen=True, eq=False)
 class Scene:
@@ -98,6 +104,11 @@ class Scene:
             if structure.whole is not None:
                 found[id(structure.whole)][1].extend(structure.parts)
         return list(found.values())
+
+    def whole_of(self) -> np.ndarray:
+        """The structure that each structure is a part of, by number; -1 = none."""
+        number = {id(structure): s for s, structure in enumerate(self.structures)}
+        return np.array([number[id(structure.whole)] if structure.whole else -1 for structure in self.structures], np.int64)
 
     def volume(self) -> np.ndarray:
         """(n,) of the dilated bodies [m3]."""

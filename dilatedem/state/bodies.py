@@ -6,7 +6,10 @@ import numpy as np
 
 
 class Solids(NamedTuple):
-    """Mass, elasticity and friction of n bodies; fixed bodies have zero inverse mass and inertia."""
+    """Mass, elasticity and friction of n bodies; fixed bodies and structures have zero inverse mass and inertia.
+
+    What a structure gives way by, its support has: `give`, about its place, which `seat` leads to.
+    """
 
     inverse_mass: np.ndarray  # (n,) 1/kg
     mass: np.ndarray  # (n,) kg
@@ -14,6 +17,9 @@ class Solids(NamedTuple):
     inverse_inertia: np.ndarray  # (n, 3, 3) body frame, 1/(kg m2)
     compliance: np.ndarray  # (n,) (1 - nu^2)/E, 1/Pa: a body's term of Liu 2015, Eq. (7)
     friction: np.ndarray  # (n,) mu of Liu 2015, Eq. (6), of a structure with ice; that of ice on ice for a body that floats
+    carried: np.ndarray  # (n,) whether it is part of a structure that moves
+    give: np.ndarray  # (n, 2) of the support of its structure: inverse mass 1/kg along x and y, 1/(kg m2) about z
+    seat: np.ndarray  # (n, 3) m, from the place of a structure that moves to the body's centroid, in the body's frame
 
 
 class Ids(NamedTuple):

@@ -44,9 +44,12 @@ def clock_at_start() -> Clock:
     return Clock(**counts | {"culprit": np.full(2, -1, np.int64)})
 
 
-def clock_at(time: float) -> Clock:
-    """In the middle of a run, at `time` [s], its steps counted from here."""
+def clock_at(steps: int, dt: float) -> Clock:
+    """In the middle of a run, after so many steps of dt [s], its steps counted from here.
+
+    Times come out of the same numbers as in the run itself, to the last bit.
+    """
     clock = clock_at_start()
-    clock.time[0] = clock.since_time[0] = time
+    clock.time[0], clock.since_step[0] = steps * dt, -steps
     clock.begun[0] = 1
     return clock

@@ -38,6 +38,9 @@ TERMS = (
     Term("gain_law", GAIN, CONTACT, "made by jumps of the contact law"),
     Term("loss_crushing", LOSS, CONTACT, "lost to crushing", optional=True),
     Term("work_wind", GAIN, LOAD, "work of the wind", optional=True),
+    Term("structure_kinetic", STORED, STRUCTURE, "kinetic, of structures", optional=True),
+    Term("structure_elastic", STORED, STRUCTURE, "elastic, of what carries structures", optional=True),
+    Term("loss_support", LOSS, STRUCTURE, "lost in what carries structures", optional=True),
     Term("carried_out", LOSS, EVENT, "carried out by bodies that left", optional=True),
 )
 #: what contacts cost: the entries of `Pairs.cost`, of `Tally.cost` and of `Ledger.cost`, and the number of each

@@ -9,6 +9,7 @@ from dilatedem.state.bodies import Solids
 from dilatedem.state.charts import Charts
 from dilatedem.state.records import Records
 from dilatedem.state.setting import ContactSetting, Surroundings
+from dilatedem.state.supports import Supports
 
 
 class Model(NamedTuple):
@@ -23,3 +24,4 @@ class Model(NamedTuple):
     surroundings: Surroundings
     charts: Charts
     records: Records
+    supports: Supports

@@ -12,6 +12,12 @@ def is_free(i, solids):
 
 
 @item
+def gives_way(i, solids):
+    """Whether body i moves where it is pushed: it is free, or part of a structure that is sprung."""
+    return solids.inverse_mass[i] > 0.0 or solids.give[i, 0] > 0.0
+
+
+@item
 def point_velocity(velocity, spin, i, lever):
     """Velocity [m/s] of the point of body i at `lever` from its centroid."""
     return add(load(velocity, i), cross(load(spin, i), lever))
@@ -56,7 +62,26 @@ def spin_of(i, solids, orientation, momentum):
 @item
 def reduced_mass(a, b, solids):
     """Mass [kg] with which two bodies, one of them free at least, oppose being pushed apart along the line of their centroids."""
-    return 1.0 / (solids.inverse_mass[a] + solids.inverse_mass[b])
+    return 1.0 / ((solids.inverse_mass[a] + solids.give[a, 0]) + (solids.inverse_mass[b] + solids.give[b, 0]))
+
+
+@item
+def carried_mobility(i, solids, orientation, lever, normal):
+    """1/m' [1/kg] of body i of a structure, as `mobility`: of all parts together, as their support lets them move.
+
+    (n_x^2 + n_y^2)/M + (r x n)_z^2/J, r from the structure's place. Springs and dashpots of the support are left out: a contact is
+    over before they have been bent. Zero for what is held or driven.
+    """
+    give, turn = solids.give[i, 0], solids.give[i, 1]
+    if give == 0.0:
+        return 0.0
+    total = give * (normal[0] * normal[0] + normal[1] * normal[1])
+    if turn > 0.0:
+        R = rotation_matrix(orientation[i, 0], orientation[i, 1], orientation[i, 2], orientation[i, 3])
+        arm = add(to_world(R, load(solids.seat, i)), lever)
+        moment = arm[0] * normal[1] - arm[1] * normal[0]
+        total += turn * moment * moment
+    return total
 
 
 @item
@@ -64,7 +89,7 @@ def mobility(i, solids, orientation, lever, normal):
     """1/m' [1/kg] of body i at `lever` from its centroid along the unit vector `normal`: 1/m + (r x n).I^-1.(r x n)."""
     total = solids.inverse_mass[i]
     if total == 0.0:
-        return 0.0
+        return carried_mobility(i, solids, orientation, lever, normal)
     q, give = orientation, solids.inverse_inertia
     # turned by the quaternion itself: for one vector its matrix takes longer; the inertia is symmetric
     axis, arm = (q[i, 1], q[i, 2], q[i, 3]), cross(lever, normal)

@@ -3,6 +3,7 @@
 from dilatedem.contact.search.neighbours import awake_pairs, find_pairs
 from dilatedem.contact.tally import close_tally, too_deep
 from dilatedem.jit import kernel, lap
+from dilatedem.motion.carry import carry_structures, push_structures
 from dilatedem.motion.energy import book_energies
 from dilatedem.motion.paces import foresee
 from dilatedem.motion.timestep import assembled_frequency
@@ -18,7 +19,8 @@ DONE, PAIRS_FULL, TOO_FAST, TOO_DEEP = int(Status.DONE), int(Status.PAIRS_FULL),
 
 @kernel
 def advance(
-    team, timer, model, ids, bodies, pairs, spare, cells, workspace, tally, ledger, loads, windows, hits, log, clock, span, steps
+    team, timer, model, ids, bodies, excursions, pairs, spare, cells, workspace, tally, ledger, loads, windows, hits, log, clock,
+    span, steps,
 ):  # fmt: skip
     """Advance all bodies by up to `steps` steps of `clock.dt`; returns a `Status`, its culprit in `clock`.
 
@@ -38,6 +40,7 @@ def advance(
         clock.moves[0] += idle
         lap(timer, FORESEE)
         while clock.step[0] < start + ahead:
+            carry_structures(dt, model, bodies, excursions, clock)
             if not drift_bodies(team, workspace.busy, busy, dt, model, bodies, pairs, workspace, clock):
                 status = TOO_FAST
                 break
@@ -55,7 +58,8 @@ def advance(
                 workspace,
             )  # fmt: skip
             lap(timer, FLOAT)
-            load_structures(at_structure, dt, m.structure_of, m.charts, m.records, bodies, pairs, workspace, loads)
+            load_structures(at_structure, dt, model, bodies, excursions, pairs, workspace, loads)
+            push_structures(dt, model, bodies, excursions, loads)
             record_crushed(m.contact, at_structure, m.structure_of, m.records, pairs, workspace, loads)
             record_loads(m.records, loads)
             end_window(clock.step[0], loads, windows)
@@ -75,5 +79,5 @@ def advance(
     close_tally(tally, ledger, loads, clock)
     complete_spins(model, bodies)
     book_energies(model, bodies, pairs, workspace, ledger)
-    clock.frequency[0] = assembled_frequency(m.solids, bodies, pairs, workspace)
+    clock.frequency[0] = assembled_frequency(m, bodies, pairs, workspace)
     return status

@@ -10,6 +10,7 @@ from dilatedem.contact.sums import sum_contacts
 from dilatedem.contact.tally import book_contact
 from dilatedem.contact.turning import turn_shape
 from dilatedem.jit import device, item
+from dilatedem.motion.carry import carried_travel
 from dilatedem.motion.integrate import drift, kick
 from dilatedem.motion.paces import LONGEST_MOVE
 from dilatedem.state.response import is_free
@@ -25,8 +26,11 @@ def part(count, block, blocks):
 
 
 @item
-def drift_block(team, chosen, count, dt, reach, solids, bodies, pairs, workspace, block=0, blocks=1):
-    """Move the bodies of a part; one that moved too far, and whether one has passed its horizon, go to the block's places."""
+def drift_block(team, chosen, count, dt, shapes, solids, bodies, pairs, workspace, block=0, blocks=1):
+    """Move the bodies of a part; one that moved too far, and whether one has passed its horizon, go to the block's places.
+
+    Structures stand where they are; those that move, `motion.carry` has moved before.
+    """
     path, horizon = bodies.path, workspace.horizon
     adrift = dt * sqrt(pairs.frame[0] ** 2 + pairs.frame[1] ** 2)
     longest = LONGEST_MOVE * pairs.limit[0]
@@ -36,8 +40,12 @@ def drift_block(team, chosen, count, dt, reach, solids, bodies, pairs, workspace
         i = chosen[w]
         moved = adrift
         if is_free(i, solids):
-            moved = drift(i, dt, solids, bodies, reach[i], pairs.frame)
+            moved = drift(i, dt, solids, bodies, shapes.reach[i], pairs.frame)
             if not moved <= longest and fault < 0:  # also where it is no number
+                fault, leap = i, moved
+        elif solids.carried[i]:
+            moved = carried_travel(i, dt, bodies.middle_velocity, bodies.middle_angular_velocity, shapes.plan_reach, pairs.frame)
+            if not moved <= longest and fault < 0:
                 fault, leap = i, moved
         path[i] += moved
         surprise = surprise or path[i] > horizon[i]
@@ -88,7 +96,7 @@ def float_block(
     if first == last:
         return
     sum_contacts(chosen, first, last, awake, bodies, pairs, workspace)
-    while last > first and chosen[last - 1] >= floating:  # structures feel no water and never move
+    while last > first and chosen[last - 1] >= floating:  # structures feel no water, nor are they kicked here
         last -= 1
     if setting.water:
         submerge(chosen, first, last, hulls, bodies, workspace, block)

@@ -38,10 +38,10 @@ def complete_spins(model, bodies):
 
 
 @shared_loop
-def _drift_shared(team, chosen, count, dt, reach, solids, bodies, pairs, workspace):
+def _drift_shared(team, chosen, count, dt, shapes, solids, bodies, pairs, workspace):
     parts = team.threads
     for each in prange(parts):
-        drift_block(team, chosen, count, dt, reach, solids, bodies, pairs, workspace, each, parts)
+        drift_block(team, chosen, count, dt, shapes, solids, bodies, pairs, workspace, each, parts)
 
 
 _drift_all = by_type(drift_block, {Team: _drift_shared})
@@ -50,7 +50,7 @@ _drift_all = by_type(drift_block, {Team: _drift_shared})
 @item
 def drift_bodies(team, chosen, count, dt, model, bodies, pairs, workspace, clock):
     """Move the first `count` of the bodies in `chosen`; True, or False with the culprit in `clock` where one moves too far."""
-    _drift_all(team, chosen, count, dt, model.shapes.reach, model.solids, bodies, pairs, workspace)
+    _drift_all(team, chosen, count, dt, model.shapes, model.solids, bodies, pairs, workspace)
     for block in range(team.threads):
         i = workspace.fault[block]
         if i >= 0:

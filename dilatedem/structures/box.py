@@ -13,6 +13,7 @@ from dilatedem.numerics.frames import quaternion_from_rotation_vector
 from dilatedem.numerics.plain import norm, sine_cosine
 from dilatedem.state.charts import Along
 from dilatedem.structures.kind import Chart, Part, Sketch, Structure, friction_key, modulus_key, name_key, ratio_key
+from dilatedem.structures.support import AnySupport, support_key
 
 #: corners in plan, in halves of the size: counter-clockwise, so that the side towards -x comes in the middle
 CORNERS = np.array([[1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0]])
@@ -32,6 +33,7 @@ class Box(Structure):
     elastic_modulus: Positive = modulus_key()
     poisson_ratio: PoissonRatio = ratio_key()
     friction: Friction | None = friction_key()
+    support: AnySupport = support_key()
 
     def faults(self) -> list[Fault]:
         if self.top <= self.bottom:

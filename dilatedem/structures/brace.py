@@ -25,6 +25,7 @@ from dilatedem.structures.kind import (
     ratio_key,
 )
 from dilatedem.structures.solid import hull_in_plan
+from dilatedem.structures.support import AnySupport, support_key
 
 #: m, between the ends of a brace, at least: its direction must not be round-off
 SHORTEST = 1e-3
@@ -55,6 +56,7 @@ class Brace(_From):
     elastic_modulus: Positive = modulus_key()
     poisson_ratio: PoissonRatio = ratio_key()
     friction: Friction | None = friction_key()
+    support: AnySupport = support_key()
 
     def faults(self) -> list[Fault]:
         if math.dist(*self._axis) < SHORTEST:

@@ -23,6 +23,7 @@ from dilatedem.structures.kind import (
     name_key,
     ratio_key,
 )
+from dilatedem.structures.support import AnySupport, support_key
 
 #: sides of a cone as the figures in plan show it: round at any size
 SKETCH_SIDES = 128
@@ -43,6 +44,7 @@ class Cone(Structure):
     elastic_modulus: Positive = modulus_key()
     poisson_ratio: PoissonRatio = ratio_key()
     friction: Friction | None = friction_key()
+    support: AnySupport = support_key()
 
     def faults(self) -> list[Fault]:
         if not FLATTEST <= abs(self.slope) <= 90.0:

@@ -7,6 +7,7 @@ import numpy as np
 from dilatedem.field.obstacles import Obstacle
 from dilatedem.geometry.polyhedron import Polyhedron
 from dilatedem.structures.kind import Part, Sketch
+from dilatedem.structures.support import HELD, Support
 
 
 def name_of(number: int) -> str:
@@ -24,6 +25,7 @@ class HeldBody:
     number: int
     position: np.ndarray
     kind: str = "body"
+    support: Support = HELD
 
     @property
     def name(self) -> str:

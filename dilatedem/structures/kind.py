@@ -7,7 +7,7 @@
 5. the chart of its load map: how places on it are laid out flat (`chart`);
 6. its drawing: what ParaView shows (`drawing`) and what the figures in plan show (`sketch`).
 
-Besides, the point about which its moments are stated (`place`).
+Besides, the point about which its moments are stated (`place`), and what carries it, whatever its shape (`structures.support`).
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -112,7 +112,10 @@ class Sketch:
 
 
 class Structure(Table):
-    """A table [[structure]] of a case file, and the six answers."""
+    """A table [[structure]] of a case file, and the six answers; each kind has a key `support` as well."""
+
+    #: whether something can carry it that moves
+    can_move: ClassVar[bool] = True
 
     @property
     def members(self) -> Sequence[Structure]:

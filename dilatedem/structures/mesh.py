@@ -18,6 +18,7 @@ from dilatedem.numerics.plain import turned
 from dilatedem.state.charts import Along
 from dilatedem.structures import solid
 from dilatedem.structures.kind import Chart, Part, Sketch, Structure, friction_key, modulus_key, name_key, ratio_key
+from dilatedem.structures.support import AnySupport, support_key
 from dilatedem.structures.surface import Pieces, pieces_of
 
 SUFFIXES = (".stl", ".obj")
@@ -44,6 +45,7 @@ class Mesh(Structure):
     elastic_modulus: Positive = modulus_key()
     poisson_ratio: PoissonRatio = ratio_key()
     friction: Friction | None = friction_key()
+    support: AnySupport = support_key()
 
     def faults(self) -> list[Fault]:
         if Path(self.file).suffix.lower() not in SUFFIXES:

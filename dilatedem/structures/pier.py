@@ -15,6 +15,7 @@ from dilatedem.numerics.plain import norm, sine_cosine
 from dilatedem.state.charts import Along
 from dilatedem.structures import solid
 from dilatedem.structures.kind import Chart, Part, Sketch, Structure, friction_key, modulus_key, name_key, ratio_key
+from dilatedem.structures.support import AnySupport, support_key
 
 #: deg, of the flattest side: flatter ones are no pier, and its sides would meet far away
 FLATTEST = 5.0
@@ -42,6 +43,7 @@ class Pier(Structure):
     elastic_modulus: Positive = modulus_key()
     poisson_ratio: PoissonRatio = ratio_key()
     friction: Friction | None = friction_key()
+    support: AnySupport = support_key()
 
     def faults(self) -> list[Fault]:
         if self.top <= self.bottom:

@@ -23,6 +23,7 @@ from dilatedem.structures.kind import (
     name_key,
     ratio_key,
 )
+from dilatedem.structures.support import AnySupport, support_key
 
 #: half the length of a pile's core, m: "reaching beyond any floe above and below"
 HALF_LENGTH = 200.0
@@ -40,6 +41,7 @@ class Pile(Structure):
     elastic_modulus: Positive = modulus_key()
     poisson_ratio: PoissonRatio = ratio_key()
     friction: Friction | None = friction_key()
+    support: AnySupport = support_key()
 
     @property
     def place(self) -> np.ndarray:

@@ -1,7 +1,7 @@
 """An unbounded plane: a wall, a slope, a sea bed."""
 
 import math
-from typing import Literal
+from typing import ClassVar, Literal
 
 import numpy as np
 
@@ -23,6 +23,7 @@ from dilatedem.structures.kind import (
     name_key,
     ratio_key,
 )
+from dilatedem.structures.support import AnySupport, support_key
 
 #: a normal shorter than this is taken for zero; its square must not vanish in round-off
 SHORTEST_NORMAL = 1e-9
@@ -39,6 +40,8 @@ STRIP = (3.0, 0.025)
 class Plane(Structure):
     """An unbounded plane, solid on the side that its normal points away from."""
 
+    can_move: ClassVar[bool] = False  # it has no end
+
     kind: Literal["plane"] = key(..., "", "An unbounded plane.")
     name: Name = name_key("plane")
     point: Vector3 = key(..., "m", "Any point of the plane.")
@@ -46,12 +49,15 @@ class Plane(Structure):
     elastic_modulus: Positive = modulus_key()
     poisson_ratio: PoissonRatio = ratio_key()
     friction: Friction | None = friction_key()
+    support: AnySupport = support_key()
 
     def faults(self) -> list[Fault]:
         length = math.hypot(*self.normal)  # of lengths whose squares vanish, too
         if length < SHORTEST_NORMAL:
             shorter = f", nor shorter than {SHORTEST_NORMAL:g}" if length > 0.0 else ""
             return [(("normal",), f"must not be zero{shorter}: it points from the plane towards the ice")]
+        if self.support.moves:
+            return [(("support", "kind"), 'must be "held": a plane has no end, so that nothing can carry it; take a box')]
         return []
 
     @property

@@ -1,13 +1,14 @@
 """Loads on structures: summed in every step, gathered in windows and maps."""
 
-from math import atan2, pi, sqrt
+from math import atan2, cos, pi, sin, sqrt
 
 from dilatedem.jit import device, item
 from dilatedem.numerics.vector import add, cross, load, scale, sub
 from dilatedem.state.charts import Along
 from dilatedem.state.loads import EXTREMES, HEIGHT_BINS, PLACE_BINS
+from dilatedem.state.supports import Carried
 
-ANGLE, LINE = int(Along.ANGLE), int(Along.LINE)
+ANGLE, LINE, HELD = int(Along.ANGLE), int(Along.LINE), int(Carried.HELD)
 EXTREME_COUNT = len(EXTREMES)
 #: columns of the extremes: of a pair the first, its lowest
 FX, FY, FH, ALONG, ACROSS, MX, MY, MZ, MH = map(EXTREMES.index, (
@@ -16,8 +17,9 @@ FX, FY, FH, ALONG, ACROSS, MX, MY, MZ, MH = map(EXTREMES.index, (
 
 
 @item
-def load_structures(count, dt, structure_of, charts, records, bodies, pairs, workspace, loads):
+def load_structures(count, dt, model, bodies, excursions, pairs, workspace, loads):
     """Loads of all records at this step, from the awake pairs with a structure, `count` of them."""
+    structure_of, charts, supports, records = model.structure_of, model.charts, model.supports, model.records
     for s in range(len(loads.step_contacts)):
         loads.step_contacts[s] = 0
         for m in range(6):
@@ -29,12 +31,18 @@ def load_structures(count, dt, structure_of, charts, records, bodies, pairs, wor
         a, b, impulse = pairs.a[k], pairs.b[k], pairs.normal_force[k] * dt
         force, couple = load(pairs.force, k), load(pairs.couple, k)
         if structure_of[b] >= 0:
-            _load_structure(structure_of[b], load(bodies.position, b), load(pairs.arm, k), force, couple, impulse, charts, loads)
+            _load_structure(
+                structure_of[b], load(bodies.position, b), load(pairs.arm, k), force, couple, impulse, charts, supports,
+                excursions, loads,
+            )  # fmt: skip
         if structure_of[a] >= 0:
             force, couple = scale(-1.0, force), scale(-1.0, couple)
-            _load_structure(structure_of[a], load(bodies.position, a), load(pairs.point, k), force, couple, impulse, charts, loads)
+            _load_structure(
+                structure_of[a], load(bodies.position, a), load(pairs.point, k), force, couple, impulse, charts, supports,
+                excursions, loads,
+            )  # fmt: skip
     for t in range(len(records.total)):
-        _add_up(records.total[t], records.start[t], records.start[t + 1], records.member, charts.center, loads)
+        _add_up(records.total[t], records.start[t], records.start[t + 1], records.member, excursions.center, loads)
 
 
 @item
@@ -51,11 +59,11 @@ def _add_up(row, first, last, member, center, loads):
 
 
 @item
-def _load_structure(s, position, arm, force, couple, impulse, charts, loads):
+def _load_structure(s, position, arm, force, couple, impulse, charts, supports, excursions, loads):
     """Add a contact to the load and the map of structure s, at `arm` from one of its bodies, which is at `position`."""
-    center = load(charts.center, s)
-    # moments are about the structure's centre
-    moment = add(couple, cross(add(arm, sub(position, center)), force))
+    # moments are about the structure's centre, where it is now
+    lever = add(arm, sub(position, load(excursions.center, s)))
+    moment = add(couple, cross(lever, force))
     loads.step_contacts[s] += 1
     for m in range(3):
         loads.step_load[s, m] += force[m]
@@ -63,7 +71,11 @@ def _load_structure(s, position, arm, force, couple, impulse, charts, loads):
     if charts.map[s] < 0:
         return
     height, axis = position[2] + arm[2], load(charts.axis, s)
-    x, y, z = add(arm, sub(position, load(charts.origin, s)))
+    if supports.kind[s] == HELD:
+        x, y, z = add(arm, sub(position, load(charts.origin, s)))
+    else:  # a map goes with its structure
+        lever = _unturned(excursions.displacement[s, 2], lever)
+        x, y, z = add(lever, sub(load(charts.center, s), load(charts.origin, s)))
     along = charts.along[s]
     if along == LINE:
         place = (x * axis[0] + y * axis[1]) / charts.length[s]
@@ -76,6 +88,13 @@ def _load_structure(s, position, arm, force, couple, impulse, charts, loads):
     i = min(max(int((place + 1.0) * 0.5 * PLACE_BINS), 0), PLACE_BINS - 1)
     j = min(max(int((height - low) / (high - low) * HEIGHT_BINS), 0), HEIGHT_BINS - 1)
     loads.impulse_map[charts.map[s], i, j] += impulse
+
+
+@device
+def _unturned(angle, lever):
+    """`lever` (3,) [m] in the axes of a structure that has turned by `angle` [rad] about z."""
+    c, s = cos(angle), sin(angle)
+    return c * lever[0] + s * lever[1], c * lever[1] - s * lever[0], lever[2]
 
 
 @device

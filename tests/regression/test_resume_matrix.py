@@ -20,8 +20,11 @@ STRUCTURES = (
     [{"kind": "pile", "center": [1.0, 0.0], "radius": 0.5}],
     [{"kind": "plane", "point": [3.0, 0.0, 0.0], "normal": [-1.0, 0.2, 0.3]}],
     [
-        {"kind": "pile", "name": "one", "center": [1.0, -1.0], "radius": 0.4},
-        {"kind": "box", "name": "two", "center": [0.0, 2.5], "size": [1.0, 0.8], "rotation": 25.0},
+        {"kind": "pile", "name": "one", "center": [1.0, -1.0], "radius": 0.4,
+         "support": {"kind": "sprung", "mass": 1e3, "stiffness": [1e6, 0.0], "inertia": 1e3, "stiffness_yaw": 1e5}},
+        {"kind": "box", "name": "two", "center": [0.0, 2.5], "size": [1.0, 0.8], "rotation": 25.0,
+         "support": {"kind": "driven", "table": [[0.0, 4.0, 0.0, 0.0], [0.1, 4.0, 0.1, 0.05], [0.5, 3.5, 0.0, 0.2]]}},
+        {"kind": "pile", "name": "three", "center": [-1.0, -3.5], "radius": 0.3},
     ],
 )
 CHOSEN = [

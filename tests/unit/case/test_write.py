@@ -75,7 +75,7 @@ def test_round_trip(data):
         if path[-1] == "title":
             assert written[line - 1].startswith("title = ")
         elif len(path) > 1 and isinstance(path[-1], str):
-            assert written[line - 1].startswith(f"{path[-1]} = ")
+            assert written[line - 1].startswith((f"{path[-1]} = ", f"[{path[0]}.{path[-1]}]"))
 
 
 def test_every_default_is_explicit_and_units_stand_beside():
@@ -84,7 +84,7 @@ def test_every_default_is_explicit_and_units_stand_beside():
     data = tomllib.loads(text)
     assert set(data) == set(Case.model_fields)
     assert set(data["structure"][0]) == {
-        "kind", "name", "center", "radius", "elastic_modulus", "poisson_ratio"
+        "kind", "name", "center", "radius", "elastic_modulus", "poisson_ratio", "support"
     }
     assert set(data["body"][0]) == set(Body.model_fields) - {"outline", "outline_tolerance", "thickness"}
     assert "velocity = [0.3, 0.0]  # m/s\n" in text

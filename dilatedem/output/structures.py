@@ -1,0 +1,133 @@
+"""structures.csv, and structures.pvd with its files: where structures that move are, how fast, and what their bases bear."""
+
+import numpy as np
+
+from dilatedem.numerics.frames import quaternion_from_rotation_vector
+from dilatedem.numerics.plain import norm
+from dilatedem.output import folder
+from dilatedem.output.observer import Observer, TableObserver
+from dilatedem.output.tables import STRUCTURES_COLUMNS, Table
+from dilatedem.output.vtu import wrapped, write_pvd, write_shapes
+from dilatedem.state.supports import Carried, reaction
+
+#: bytes of a row, and of a structure in a snapshot, about
+ROW, SHAPE = 110.0, 4e3
+
+
+def moving(case) -> int:
+    """How many structures of a case are not held."""
+    return sum(structure.support.moves for structure in case.structure)
+
+
+class StructureMotion(TableObserver):
+    """A row a structure that moves, where a window of forces.csv ends; no file where none does."""
+
+    name, file, columns = "structures", folder.STRUCTURE_MOTION, STRUCTURES_COLUMNS
+
+    @classmethod
+    def interval(cls, case) -> float:
+        return case.output.force_interval if moving(case) else 0.0
+
+    @classmethod
+    def size(cls, case, floes: int, structures: int) -> float:
+        return ROW * moving(case) * case.time.duration / case.output.force_interval
+
+    def open(self, kept: dict | None, since: int) -> None:
+        simulation = self.simulation
+        self._which = simulation.model.supports.moving
+        self._names = [simulation.scene.structures[s].name for s in self._which]
+        self._rows: list[tuple[float, np.ndarray]] = []  # time [s], columns (moving, 7)
+        self._most = kept["most"] if kept else {name: [0.0] * 4 for name in self._names}
+        if self._names:
+            super().open(kept, since)
+
+    def look(self, step: int, last: bool) -> None:
+        if self._names and (last or self.schedule.is_due(step)):
+            self.note(step)
+
+    def note(self, step: int) -> None:
+        simulation, which, time_s = self.simulation, self._which, self.simulation.time_s
+        excursions = simulation.state.excursions
+        borne = reaction(simulation.model.supports, excursions)[which, :2]
+        columns = np.column_stack([excursions.displacement[which], excursions.velocity[which, :2], borne])
+        self._rows.append((time_s, columns))
+        for name, far, hard in zip(self._names, norm(columns[:, :2]), norm(borne), strict=True):
+            most = self._most[name]
+            most[:2] = (float(far), time_s) if far > most[0] else most[:2]
+            most[2:] = (float(hard), time_s) if hard > most[2] else most[2:]
+
+    def refresh(self) -> None:
+        if not self._names:
+            return
+        kept, self._rows = self._rows, []
+
+        def rows(table: Table) -> None:
+            if kept:
+                times = [time for time, _ in kept for _ in self._names]
+                table.append_columns([times, self._names * len(kept), *np.concatenate([columns for _, columns in kept]).T.tolist()])
+
+        self.put(rows)
+
+    def kept(self) -> dict:
+        return {"most": {name: list(most) for name, most in self._most.items()}}
+
+    def settle(self) -> dict:
+        return super().settle() if self._names else {}
+
+    def summary(self) -> dict:
+        names = ("displacement_max_m", "displacement_max_time_s", "reaction_max_N", "reaction_max_time_s")
+        return {"motion": {name: dict(zip(names, most, strict=True)) for name, most in self._most.items()}} if self._names else {}
+
+    def close(self) -> None:
+        if self._names:
+            super().close()
+
+
+class StructureSnapshots(Observer):
+    """Structures that move at each snapshot of the ice, for ParaView; those that are held stand in structures.vtu."""
+
+    name = "structure_snapshots"
+
+    @classmethod
+    def interval(cls, case) -> float:
+        return case.output.snapshot_interval if moving(case) else 0.0
+
+    @classmethod
+    def size(cls, case, floes: int, structures: int) -> float:
+        interval = case.output.snapshot_interval
+        return SHAPE * moving(case) * (case.time.duration / interval + 1) if interval else 0.0
+
+    def open(self, kept: dict | None, since: int) -> None:
+        self.written: list[list] = kept["written"] if kept else []  # time [s], file
+        self._listed = 0
+        simulation, extent = self.simulation, float(norm(self.simulation.case.domain.size))
+        structures, supports = simulation.scene.structures, simulation.model.supports
+        which = np.flatnonzero(supports.kind != Carried.HELD)
+        drawings = [structures[s].about.drawing(extent) for s in which]
+        self._owner = np.repeat(which, [len(pieces) for pieces in drawings])
+        places = supports.place[self._owner]
+        self._pieces = [piece.translated(-place) for piece, place in zip(sum(drawings, []), places, strict=True)]
+
+    def note(self, step: int) -> None:
+        excursions, which = self.simulation.state.excursions, self._owner
+        name = folder.structures_name(self.schedule.events_until(step) - 1)
+        rows = (getattr(excursions, kept)[which] for kept in ("center", "displacement", "velocity"))
+        self.background.put(self._write, name, *rows)
+        self.written.append([self.simulation.time_s, name])
+
+    def _write(self, name: str, center: np.ndarray, displacement: np.ndarray, velocity: np.ndarray) -> None:
+        """In the background."""
+        domain = self.simulation.case.domain
+        periodic = (domain.x_boundary == "periodic", domain.y_boundary == "periodic")
+        yaw = np.reshape([quaternion_from_rotation_vector([0.0, 0.0, angle]) for angle in displacement[:, 2]], (-1, 4))
+        flat = np.array([1.0, 1.0, 0.0])
+        cell_data = {"structure": self._owner, "displacement": displacement * flat, "velocity": velocity * flat}
+        write_shapes(self.out / name, self._pieces, wrapped(center, domain.size, periodic), yaw, cell_data)
+
+    def refresh(self) -> None:
+        if self._listed < len(self.written):
+            self.background.put(write_pvd, self.out / folder.STRUCTURE_COLLECTION, list(self.written))
+            self._listed = len(self.written)
+
+    def kept(self) -> dict:
+        return {"written": list(self.written)}

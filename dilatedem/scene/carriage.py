@@ -1,0 +1,58 @@
+"""From the supports of a scene to arrays: what carries its structures, and how their parts hang together."""
+
+import numpy as np
+
+from dilatedem.numerics.blocks import offsets
+from dilatedem.scene.place import PlacedStructure, Scene
+from dilatedem.state.supports import Carried, Supports
+from dilatedem.structures.support import Carriage
+
+
+def pack_supports(scene: Scene) -> Supports:
+    """Of all records of a scene, in their order."""
+    sums = len(scene.records) - len(scene.structures)
+    carriages = [*(_carriage(structure) for structure in scene.structures), *[Carriage(Carried.HELD)] * sums]
+    parts, own = [part for structure in scene.structures for part in structure.parts], np.arange(len(scene.structures))
+    whole_of, place = scene.whole_of(), places(scene)
+    owner = np.repeat(np.where(whole_of < 0, own, whole_of), [len(structure.parts) for structure in scene.structures])
+    moving = np.flatnonzero((whole_of < 0) & [structure.support.moves for structure in scene.structures])
+    chosen = np.concatenate([np.zeros(0, np.int64), *(np.flatnonzero(owner == s) for s in moving)])
+
+    def rows(name: str, width: int) -> np.ndarray:
+        return np.reshape([getattr(carriage, name) for carriage in carriages], (-1, width))
+
+    return Supports(
+        moving=moving,
+        kind=np.array([carriage.kind for carriage in carriages], np.int64),
+        place=place,
+        inverse_mass=rows("inverse_mass", 3),
+        stiffness=rows("stiffness", 3),
+        damping=rows("damping", 3),
+        part_start=offsets([np.count_nonzero(owner == s) for s in moving]),
+        part=chosen,
+        seat=np.reshape([part.position for part in parts], (-1, 3))[chosen] - place[owner[chosen]],
+        upright=np.reshape([part.orientation for part in parts], (-1, 4))[chosen],
+        knot_start=offsets([len(carriage.times) for carriage in carriages]),
+        knot_time=np.concatenate([np.zeros(0), *(carriage.times for carriage in carriages)]),
+        knot=np.concatenate([np.zeros((0, 3)), *(carriage.displacement for carriage in carriages)]),
+        slope=np.concatenate([np.zeros((0, 3)), *(carriage.slope for carriage in carriages)]),
+    )
+
+
+def _carriage(structure: PlacedStructure) -> Carriage:
+    """How a structure moves; one that is a part of another goes with it, and has no table of time, mass or springs itself."""
+    carriage = structure.support.carriage()
+    return Carriage(carriage.kind) if structure.whole else carriage
+
+
+def places(scene: Scene) -> np.ndarray:
+    """(s, 3) [m] about which the moments of each record are stated, with all structures at rest."""
+    return np.reshape([record.place for record in scene.records], (-1, 3))
+
+
+def velocities_at_start(scene: Scene) -> np.ndarray:
+    """(s, 3) m/s, m/s, rad/s of each record: of structures that are driven."""
+    found = np.zeros((len(scene.records), 3))
+    for s, structure in enumerate(scene.structures):
+        found[s] = structure.support.carriage().at(np.zeros(1))[1][0]
+    return found
