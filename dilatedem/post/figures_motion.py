@@ -36,7 +36,7 @@ def motion_figure(structure: str, motion: Table, history: Table | None = None) -
         axes.axhline(0.0, color=BLACK, linewidth=0.5, zorder=1)
         axes.grid(True)
         axes.margins(y=0.08)
-        axes.legend(loc="upper left", ncols=3)
+        axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=3, borderaxespad=0.2)
     if len(time) > 1:
         below.set_xlim(float(time[0]), float(time[-1]))
     figure.align_ylabels([above, below])

@@ -161,6 +161,21 @@ def test_a_turning_wing_throws_a_ball(model):
     assert simulation.energy["work_structure"] == pytest.approx(0.5 * BALL_MASS * speed**2, rel=1e-4)
 
 
+def test_a_load_map_goes_and_turns_with_its_structure():
+    """A box of 4 m by 1 m turns by a right angle, then meets a ball with its long side, 1.5 m from its middle."""
+    box = {"kind": "box", "center": [0.0, 0.0], "size": [4.0, 1.0], "bottom": -1.0, "top": 1.0}
+    ball = {"vertices": [[0.0, 0.0, 0.0]], "dilated_radius": BALL, "position": [-2.0, 1.5, 0.0]}
+    way = [[0.0, 0.0, 0.0, 0.0], [0.5, 0.0, 0.0, pi / 2], [0.6, 0.0, 0.0, pi / 2], [2.0, -1.4, 0.0, pi / 2]]
+    simulation = scene({"kind": "driven", "table": way}, structure=box, bodies=[ball], time={"step": 1e-4})
+    for _ in range(20_000):
+        simulation.step(1)
+        load = simulation.structures["box"].load
+        assert load[5] == pytest.approx(-1.5 * load[0], rel=1e-6), "moments are about where its place is now"
+    (along,), _ = np.nonzero(simulation.state.loads.impulse_map[0])
+    # around the box from its own corner at +x, +y: half a metre along the side that looks to +y, and now to -x
+    assert 10.0 * along / 72 <= 0.5 < 10.0 * (along + 1) / 72
+
+
 @pytest.mark.parametrize("model", MODELS)
 def test_driven_through_ice_at_rest_is_held_in_ice_that_moves(model):
     speed = 1.5

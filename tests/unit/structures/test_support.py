@@ -152,7 +152,7 @@ STRUCTURES = [
 @pytest.fixture(scope="module")
 def moved(tmp_path_factory):
     """Run folder of the crowded case with three structures: on springs, driven and held."""
-    settings = ["time.duration=2.0", "field.floe_count=70", "output.snapshot_interval=0.5"]
+    settings = ["time.duration=2.0", "time.error_check=true", "field.floe_count=70", "output.snapshot_interval=0.5"]
     settings.append(f"structure=[{', '.join(map(inline, STRUCTURES))}]")
     return loop.run(load("tests/cases/crowded.toml", settings), tmp_path_factory.mktemp("moved") / "run", quiet=True)
 
@@ -175,6 +175,7 @@ def test_files_of_a_run_with_structures_that_move(moved):
     damping = 2.0 * 0.02 * np.sqrt(1e6 * 2e3)
     assert soft.reaction_x_N.to_numpy() == pytest.approx((1e6 * soft.x_m + damping * soft.vx_m_s).to_numpy(), rel=1e-6, abs=1e-3)
     summary = json.loads((moved / "summary.json").read_text())
+    assert summary["error_check"]["reproduced"], "a copy of the state holds how structures move"
     assert set(summary["motion"]) == {"soft", "bow"} and summary["energy"]["work_structure_J"] != 0.0
     assert summary["motion"]["soft"]["displacement_max_m"] == pytest.approx(np.hypot(soft.x_m, soft.y_m).max(), rel=1e-6)
     energy = results(moved).energy
