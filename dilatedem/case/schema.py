@@ -9,6 +9,7 @@ from typing import Annotated, Any, Literal, Union
 from pydantic import Field, model_validator
 
 from dilatedem.case.bodies import Body
+from dilatedem.case.names import name_faults
 from dilatedem.keys import (
     LARGEST_INTEGER,
     Boundary,
@@ -26,12 +27,6 @@ from dilatedem.keys import (
     key,
 )
 from dilatedem.structures import kinds, support
-from dilatedem.structures.held import name_of
-
-# Contact with a wall boundary is recorded under these names, so that no structure may take them.
-WALL_NAMES = ("wall_x_min", "wall_x_max", "wall_y_min", "wall_y_max")
-# ... and the load on all structures together under this one.
-TOTAL = "total"
 
 
 def _dilation_faults(radius: float, thickness: float) -> list[Fault]:
@@ -242,7 +237,7 @@ class Case(Table):
         return {"model": self.contact.model, "damping_law": self.contact.damping_law, "crushing": crushing}
 
     def faults(self) -> list[Fault]:
-        return [*self._name_faults(), *self._body_faults(), *self._track_faults(), *self._check_faults()]
+        return [*name_faults(self.structure, self.body), *self._body_faults(), *self._track_faults(), *self._check_faults()]
 
     @model_validator(mode="after")
     def _fill_bodies(self):
@@ -258,24 +253,6 @@ class Case(Table):
         if body.vertices is not None and body.position is None:
             values["position"] = (0.0, 0.0, 0.0)
         return values
-
-    def _name_faults(self) -> list[Fault]:
-        found: list[Fault] = []
-        first: dict[str, int] = {}
-        held = {name_of(number) for number, body in enumerate(self.body) if body.fixed}
-        for i, structure in enumerate(self.structure):
-            if structure.name == TOTAL:
-                found.append((("structure", i, "name"), "is kept for all structures together; choose another"))
-            elif structure.name in WALL_NAMES:
-                found.append((("structure", i, "name"), "is kept for a wall of the domain; choose another"))
-            elif structure.name in held:
-                found.append((("structure", i, "name"), "is kept for a fixed [[body]]; choose another"))
-            elif structure.name in first:
-                other = f"structure.{first[structure.name]}"
-                text = f"is the name of {other} too; give each structure one of its own"
-                found.append((("structure", i, "name"), text))
-            first.setdefault(structure.name, i)
-        return found
 
     def _body_faults(self) -> list[Fault]:
         found: list[Fault] = []

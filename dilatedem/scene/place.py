@@ -9,7 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from dilatedem.case.bodies import Body
-from dilatedem.case.schema import WALL_NAMES, Case
+from dilatedem.case.names import WALL_NAMES
+from dilatedem.case.schema import Case
 from dilatedem.errors import CaseError
 from dilatedem.field.obstacles import Region
 from dilatedem.field.placement import FloeField, equilibrium_height, ice_field

@@ -5,7 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from dilatedem.case.schema import TOTAL, Case
+from dilatedem.case.names import TOTAL
+from dilatedem.case.schema import Case
 from dilatedem.structures.kind import Chart
 
 
