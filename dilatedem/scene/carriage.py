@@ -15,7 +15,7 @@ def pack_supports(scene: Scene) -> Supports:
     parts, own = [part for structure in scene.structures for part in structure.parts], np.arange(len(scene.structures))
     whole_of, place = scene.whole_of(), places(scene)
     owner = np.repeat(np.where(whole_of < 0, own, whole_of), [len(structure.parts) for structure in scene.structures])
-    moving = np.flatnonzero((whole_of < 0) & [structure.support.moves for structure in scene.structures])
+    moving = np.flatnonzero([structure.whole is None and structure.support.moves for structure in scene.structures])
     chosen = np.concatenate([np.zeros(0, np.int64), *(np.flatnonzero(owner == s) for s in moving)])
 
     def rows(name: str, width: int) -> np.ndarray:
