@@ -89,7 +89,7 @@ def _draw_chain(axes: Axes, run: RunFolder, hit: KeptHit) -> None:
     points = np.concatenate([*outlines, reference[None]])
     middle = 0.5 * (points.min(axis=0) + points.max(axis=0))
     extent = max(LEAST_VIEW, float(np.ptp(points, axis=0).max()))
-    draw_structures(axes, run)
+    draw_structures(axes, run, hit.figures["peak_time_s"])
     _draw_arrows(axes, run, hit, reference, ARROW * extent)
     half = (0.5 + MARGIN) * extent
     axes.set_xlim(middle[0] - half, middle[0] + half)
