@@ -8,7 +8,7 @@ Hit by a ball (Liu 2015, Eqs. (3), (4), (12)), two degrees of freedom, integrate
 without springs: as a free body of that mass. Driven at -v through floes at rest: as held in floes that move at v.
 """
 
-from math import exp, pi, sin, sqrt
+from math import cos, exp, pi, sin, sqrt
 
 import numpy as np
 import pytest
@@ -122,13 +122,25 @@ def test_without_springs_it_is_a_free_body_of_its_mass(model):
     assert momentum == pytest.approx(BALL_MASS * SPEED, rel=1e-12)
 
 
+def box(name: str = "box", **sizes) -> dict:
+    return {"kind": "box", "name": name, "center": [0.0, 0.0], "bottom": -1.0, "top": 1.0} | sizes
+
+
+def of_parts(*parts: dict) -> dict:
+    return {"kind": "parts", "name": "box", "part": list(parts)}
+
+
+WALL = box(size=[1.0, 4.0])
+HALVES = of_parts(box("left", center=[0.0, 1.0], size=[1.0, 2.0]), box("right", center=[0.0, -1.0], size=[1.0, 2.0]))
+
+
 @pytest.mark.parametrize("model", MODELS)
-def test_one_that_turns_keeps_momentum_and_energy(model):
+@pytest.mark.parametrize("structure", [WALL, HALVES], ids=["one", "of two parts"])
+def test_one_that_turns_keeps_momentum_and_energy(model, structure):
     mass, inertia = 900.0, 1500.0
-    box = {"kind": "box", "center": [0.0, 0.0], "size": [1.0, 4.0], "bottom": -1.0, "top": 1.0}
     ball = {"vertices": [[0.0, 0.0, 0.0]], "dilated_radius": BALL, "position": [-1.01, 1.2, 0.0], "velocity": [SPEED, 0.0, 0.0]}
     support = {"kind": "sprung", "mass": mass, "stiffness": [0.0, 0.0], "inertia": inertia, "stiffness_yaw": 0.0}
-    simulation = scene(support, model, structure=box, bodies=[ball], contact={"damping": 0.0})
+    simulation = scene(support, model, structure=structure, bodies=[ball], contact={"damping": 0.0})
 
     def of_the_whole() -> np.ndarray:
         (u, v), place = simulation.structures["box"].velocity[:2], simulation.structures["box"].displacement
@@ -148,25 +160,37 @@ def test_one_that_turns_keeps_momentum_and_energy(model):
     assert total(simulation) == pytest.approx(energy, rel=1e-4)
 
 
+def test_parts_go_and_turn_about_the_place_of_their_structure():
+    support = {"kind": "sprung", "mass": 900.0, "stiffness": [2e4, 0.0], "inertia": 1500.0, "stiffness_yaw": 0.0}
+    ball = {"vertices": [[0.0, 0.0, 0.0]], "dilated_radius": BALL, "position": [-1.01, 1.2, 0.0], "velocity": [SPEED, 0.0, 0.0]}
+    simulation = scene(support, structure=HALVES, bodies=[ball])
+    simulation.step(4000)
+    x, y, yaw = simulation.structures["box"].displacement
+    assert x > 1e-3 and yaw < -1e-3
+    for body, (name, side) in enumerate((("left", 1.0), ("right", -1.0)), start=1):
+        assert simulation.structures[f"box/{name}"].displacement == pytest.approx([x, y, yaw], rel=1e-15)
+        expected = [x - side * sin(yaw), y + side * cos(yaw), 0.0]
+        assert simulation.state.bodies.position[body] == pytest.approx(expected, abs=1e-12)
+
+
 @pytest.mark.parametrize("model", MODELS)
 def test_a_turning_wing_throws_a_ball(model):
     """Of infinite mass and without damping: the ball leaves at twice the speed of the place that hits it."""
     spin, arm = 0.2, 1.5
-    box = {"kind": "box", "center": [0.0, 0.0], "size": [1.0, 4.0], "bottom": -1.0, "top": 1.0}
     ball = {"vertices": [[0.0, 0.0, 0.0]], "dilated_radius": BALL, "position": [-1.0005, arm, 0.0]}
-    simulation = scene({"kind": "driven", "turning": spin}, model, structure=box, bodies=[ball], contact={"damping": 0.0})
+    simulation = scene({"kind": "driven", "turning": spin}, model, structure=WALL, bodies=[ball], contact={"damping": 0.0})
     simulation.step(2500)
     speed = np.hypot(*simulation.floes.velocity[0, :2])
     assert speed == pytest.approx(2.0 * spin * arm, rel=0.01)
     assert simulation.energy["work_structure"] == pytest.approx(0.5 * BALL_MASS * speed**2, rel=1e-4)
 
 
-def test_a_load_map_goes_and_turns_with_its_structure():
+@pytest.mark.parametrize("structure", [box(size=[4.0, 1.0]), of_parts(box("long", size=[4.0, 1.0]))], ids=["one", "a part"])
+def test_a_load_map_goes_and_turns_with_its_structure(structure):
     """A box of 4 m by 1 m turns by a right angle, then meets a ball with its long side, 1.5 m from its middle."""
-    box = {"kind": "box", "center": [0.0, 0.0], "size": [4.0, 1.0], "bottom": -1.0, "top": 1.0}
     ball = {"vertices": [[0.0, 0.0, 0.0]], "dilated_radius": BALL, "position": [-2.0, 1.5, 0.0]}
     way = [[0.0, 0.0, 0.0, 0.0], [0.5, 0.0, 0.0, pi / 2], [0.6, 0.0, 0.0, pi / 2], [2.0, -1.4, 0.0, pi / 2]]
-    simulation = scene({"kind": "driven", "table": way}, structure=box, bodies=[ball], time={"step": 1e-4})
+    simulation = scene({"kind": "driven", "table": way}, structure=structure, bodies=[ball], time={"step": 1e-4})
     for _ in range(20_000):
         simulation.step(1)
         load = simulation.structures["box"].load

@@ -24,9 +24,9 @@ from tests.unit.structures.test_box import toml
 TABLE = [[0.0, 7.0, 2.0, 0.0], [1.0, 7.0, 2.0, 0.0], [2.0, 5.5, 2.0, 0.3], [4.0, 5.0, 1.0, 0.3]]
 
 
-def case_with(support: dict, kind: str = "pile", **more):
-    plane = {"point": [8.0, 0.0, 0.0], "normal": [-1.0, 0.0, 0.0]} if kind == "plane" else {}
-    return case_from({"structure": [{"kind": kind, "support": support, **plane}], **more}, {})
+def case_with(support: dict, kind: str = "pile", part: list[dict] | None = None, **more):
+    own = {"point": [8.0, 0.0, 0.0], "normal": [-1.0, 0.0, 0.0]} if kind == "plane" else {"part": part} if part else {}
+    return case_from({"structure": [{"kind": kind, "support": support, **own}], **more}, {})
 
 
 @pytest.mark.parametrize(("support", "said"), [
@@ -51,8 +51,20 @@ def test_what_is_wrong_is_said(support, said):
 
 
 def test_nothing_can_carry_a_plane():
+    driven = {"kind": "driven", "velocity": [1.0, 0.0]}
     with pytest.raises(CaseError, match=r'structure.0.support.kind = "driven": must be "held": a plane has no end'):
-        case_with({"kind": "driven", "velocity": [1.0, 0.0]}, "plane")
+        case_with(driven, "plane")
+    parts = [{"kind": "pile"}, {"kind": "plane", "point": [8.0, 0.0, 0.0], "normal": [-1.0, 0.0, 0.0]}]
+    with pytest.raises(CaseError, match=r'structure.0.part.1.kind = "plane": must not be "plane" in a structure that moves'):
+        case_with(driven, "parts", part=parts)
+
+
+def test_parts_move_with_their_structure_alone():
+    said = r'structure.0.part.0.support.kind = "driven": must be "held": parts move with their structure; give the support to that'
+    with pytest.raises(CaseError, match=said):
+        case_with({"kind": "held"}, "parts", part=[{"kind": "pile", "support": {"kind": "driven", "velocity": [1.0, 0.0]}}])
+    with pytest.raises(CaseError, match=r'structure.0.part.0.support.kind = "sprong": must be "held", "driven" or "sprung"'):
+        case_with({"kind": "held"}, "parts", part=[{"kind": "pile", "support": {"kind": "sprong"}}])
 
 
 def test_a_case_is_written_with_its_supports_and_read_again():
@@ -144,14 +156,15 @@ def test_advice_on_ways_that_are_hardly_meant():
 STRUCTURES = [
     {"kind": "pile", "name": "soft", "center": [2.0, -2.0], "radius": 0.6,
      "support": {"kind": "sprung", "mass": 2e3, "stiffness": [1e6, 1e6]}},
-    {"kind": "box", "name": "bow", "center": [3.5, 2.0], "size": [1.6, 1.0], "support": {"kind": "driven", "table": TABLE}},
+    {"kind": "parts", "name": "bow", "support": {"kind": "driven", "table": TABLE},
+     "part": [{"kind": "box", "name": "stem", "center": [3.5, 2.0], "size": [1.6, 1.0]}]},
     {"kind": "pile", "name": "fast", "center": [-1.0, 4.5], "radius": 0.4},
 ]  # fmt: skip
 
 
 @pytest.fixture(scope="module")
 def moved(tmp_path_factory):
-    """Run folder of the crowded case with three structures: on springs, driven and held."""
+    """Run folder of the crowded case with three structures: on springs, driven, of a part, and held."""
     settings = ["time.duration=2.0", "time.error_check=true", "field.floe_count=70", "output.snapshot_interval=0.5"]
     settings.append(f"structure=[{', '.join(map(inline, STRUCTURES))}]")
     return loop.run(load("tests/cases/crowded.toml", settings), tmp_path_factory.mktemp("moved") / "run", quiet=True)
@@ -160,7 +173,8 @@ def moved(tmp_path_factory):
 def inline(structure: dict) -> str:
     support = structure.get("support", {"kind": "held"})
     plain = {name: value for name, value in structure.items() if name != "support"}
-    return f"{toml(plain)[:-1]}, support = {toml(support)}}}"
+    part = f", part = [{', '.join(map(toml, plain.pop('part')))}]" if "part" in plain else ""
+    return f"{toml(plain)[:-1]}{part}, support = {toml(support)}}}"
 
 
 def test_files_of_a_run_with_structures_that_move(moved):
@@ -187,7 +201,7 @@ def test_structures_move_in_paraview_and_in_plan(moved):
     files = [entry.get("file") for entry in ElementTree.parse(moved / "structures.pvd").iter("DataSet")]
     assert files == [f"snapshots/structures_{number:06d}.vtu" for number in range(5)]
     first, last = meshio.read(moved / files[0]), meshio.read(moved / files[-1])
-    assert sorted(np.concatenate(last.cell_data["structure"]).tolist()) == [0, 1]
+    assert sorted(np.concatenate(last.cell_data["structure"]).tolist()) == [0, 2]
     assert np.concatenate(last.cell_data["displacement"])[:, 0].min() == pytest.approx(-1.5, abs=1e-6)
     # the bow has 8 corners, and stands before the pile's 128
     middles = [mesh.points[:8].mean(axis=0) for mesh in (first, last)]
@@ -197,7 +211,7 @@ def test_structures_move_in_paraview_and_in_plan(moved):
     assert {"motion_soft.png", "motion_bow.png", "plan.png"} <= {path.name for path in (moved / "figures").iterdir()}
     assert "largest displacement" in (moved / "report.html").read_text()
     outlines = open_run(moved).outlines_at(2.0)
-    x, y = outlines["bow"].outline.mean(axis=0)
+    x, y = outlines["bow/stem"].outline.mean(axis=0)
     assert (x, y) == pytest.approx((3.5 - 1.5, 2.0), abs=1e-6)
-    side = outlines["bow"].outline[1] - outlines["bow"].outline[2]
+    side = outlines["bow/stem"].outline[1] - outlines["bow/stem"].outline[2]
     assert np.arctan2(-side[0], side[1]) == pytest.approx(0.3, abs=1e-6), "turned by the table's yaw"
