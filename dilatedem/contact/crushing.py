@@ -27,7 +27,7 @@ CLOSE = 2e-5
 MOST = 40
 #: what is left of the limit of a contact, as it is remembered, after each step in which it was not looked at: the pose may have
 #: changed, and the nearer a contact is to its limit, the sooner it is looked at again
-FADING = 0.99
+FADING = 0.9
 
 
 class Search(NamedTuple):
@@ -80,9 +80,10 @@ def _settle(
     """Whether the crushed depth [m] of pair k is found; the depth, to be tried next where it is not; the search; what it means.
 
     force [N], stored [J], overlap [m]: of the elastic law at `crushed`; damped [N]: that force with its dashpot; the rest as of
-    `nominal_area`. Where what the ice bore when it was last looked at is more by far, it need not be looked at again.
+    `nominal_area`. Where what the ice bore when it was last looked at is more by far, it need not be looked at again; where the
+    contact is new, it may be at another place.
     """
-    remembered = FADING * pairs.bears[k]
+    remembered = FADING * pairs.bears[k] if pairs.overlap[k] > 0.0 else 0.0
     if search.tries == 0 and damped <= remembered:
         return True, crushed, search, Crushed(remembered, 0.0)
     area, rate = nominal_area(vertex, face_normal, shapes, pairs.a[k], pairs.b[k], offset, normal, pa, pb, crushed, scratch)

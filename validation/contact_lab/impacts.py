@@ -24,6 +24,7 @@ class Impact:
     velocity_before: np.ndarray  # (2, 3) m/s
     velocity_after: np.ndarray
     spin_after: np.ndarray  # (2, 3) rad/s
+    ledger: dict[str, float]  # J, its terms afterwards
 
     @property
     def kept(self) -> float:
@@ -60,8 +61,10 @@ def collide(case: Case, *, share: float = 1.0, patience: float = PATIENCE) -> Im
         if touched:
             simulation.span = span
         quiet = 0.0 if pushed else quiet + CHUNK * simulation.dt
-    after = simulation.energies()["kinetic"]
-    return Impact(simulation.dt, kinetic, after, velocity, bodies.velocity[:2].copy(), bodies.angular_velocity[:2].copy())
+    ledger = simulation.energies()
+    return Impact(
+        simulation.dt, kinetic, ledger["kinetic"], velocity, bodies.velocity[:2].copy(), bodies.angular_velocity[:2].copy(), ledger
+    )
 
 
 def _advance(simulation: Simulation, steps: int) -> None:

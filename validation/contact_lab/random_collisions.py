@@ -36,8 +36,8 @@ def outline(random: np.random.Generator) -> np.ndarray:
     return corners - np.array(Polygon(corners).centroid.coords[0])
 
 
-def collision(model: str, random: np.random.Generator) -> Case:
-    """Two floes on their way to each other along x, just apart."""
+def collision(model: str, random: np.random.Generator, crushing: float | None = None) -> Case:
+    """Two floes on their way to each other along x, just apart; crushing: pressure [Pa], if they crush."""
     speed = float(np.exp(random.uniform(*np.log(SPEEDS))))
     aside, up = random.uniform(-ASIDE, ASIDE), random.uniform(-UP, UP)
     floes = []
@@ -50,7 +50,7 @@ def collision(model: str, random: np.random.Generator) -> Case:
         ahead = max(float((-np.sign(side) * end[:, 0]).max()) for end in ends)
         place = [side * START_GAP + np.sign(side) * ahead, side * aside, side * up]
         floes.append({"outline": corners.tolist(), "position": place, "rotation": turn.as_rotvec().tolist()})
-    return scene(model, *floes, speeds=(0.5 * speed, -0.5 * speed))
+    return scene(model, *floes, speeds=(0.5 * speed, -0.5 * speed), crushing=crushing)
 
 
 def kept_energies(model: str, numbers: Iterable[int] = range(COLLISIONS)) -> np.ndarray:

@@ -27,8 +27,11 @@ SIDE = 16.0
 APART = ((-1.5, 0.0, 0.0), (1.5, 0.0, 0.0))
 
 
-def scene(model: str, *solids: dict, damping: float = 0.0, damping_law: str = "viscous", speeds=(0.0, 0.0)) -> Case:
-    """A case of two bodies, or of a body and a structure; speeds: of the bodies along x at the start [m/s]."""
+def scene(
+    model: str, *solids: dict, damping: float = 0.0, damping_law: str = "viscous", speeds=(0.0, 0.0), crushing: float | None = None
+) -> Case:
+    """A case of two bodies, or of a body and a structure; speeds: of the bodies along x at the start [m/s]; crushing: pressure
+    [Pa], if the ice crushes."""
     bodies = [solid for solid in solids if "kind" not in solid]
     placed = [
         {"position": list(place), "velocity": [speed, 0.0, 0.0]} | body
@@ -40,6 +43,7 @@ def scene(model: str, *solids: dict, damping: float = 0.0, damping_law: str = "v
             "field": {"source": "bodies"},
             "water": {"enabled": False},
             "gravity": {"acceleration": 0.0},
+            "ice": {} if crushing is None else {"crushing_pressure": crushing},
             "contact": {"model": model, "damping": damping, "damping_law": damping_law, "friction": 0.0},
             "structure": [solid for solid in solids if "kind" in solid],
             "body": placed,
