@@ -5,8 +5,8 @@ Crushed ice bears P(d) = C A(d)^(1+q) at a crushed depth d, A the nominal area, 
     integral of P over 0..d = m v^2/2,    F = P(d),    T = integral of dx/v(x) over 0..d,
 
 with A = 2 h sqrt(2 R d - d^2) of a flat side on a pile, h times the chord of two circles of a round floe, h w(d) of an edge with
-the width w of the rounded wedge, pi d (2 r - d) of a sphere, and a constant push added to the energy: the weight of a floe that falls
-on a horizontal brace. With an elastic law F(x), W(x) in series, which is looked up in the program as it has no linear spring,
+the width w of the rounded wedge, pi d (2 r - d) of a sphere, and a constant push added to the energy: the weight of a floe that
+falls on a horizontal brace. With an elastic law F(x), W(x) in series, which is looked up in the program as it has no linear spring,
 
     W(x) + integral of P = m v^2/2,    F(x) = P(d),    e^2 = W/(m v^2/2),
 
