@@ -42,7 +42,7 @@ def stiff() -> list[str]:
     lines = [
         "| | hit | force, N | depth, m | time to it, s | force, % off | depth, % off | time, % off | peak/P(d) − 1 | loss/∫P − 1 | "
         "residual |",
-        "| --- | --- | " + "---: | " * 9,
+        "| --- | --- |" + " ---: |" * 9,
     ]
     for each in closed_forms.RIGID:
         hit = each.hit()
@@ -57,7 +57,7 @@ def stiff() -> list[str]:
 
 
 def convergence() -> list[str]:
-    lines = ["| | " + " | ".join(f"E = {modulus:.0e} Pa" for modulus in MODULI) + " |", "| --- | " + "---: | " * len(MODULI)]
+    lines = ["| | " + " | ".join(f"E = {modulus:.0e} Pa" for modulus in MODULI) + " |", "| --- |" + " ---: |" * len(MODULI)]
     for each in closed_forms.RIGID:
         found = [each.hit(f"ice.elastic_modulus={modulus:g}") for modulus in MODULI]
         lines.append(f"| {each.name} | " + " | ".join(percent(hit.peak, each.rigid(hit.mass).force) for hit in found) + " |")
@@ -67,7 +67,7 @@ def convergence() -> list[str]:
 def in_series() -> list[str]:
     lines = [
         "| | hit | model | force, N | depth, m | restitution | force, % off | depth, % off | restitution, % off | residual |",
-        "| --- | --- | --- | " + "---: | " * 7,
+        "| --- | --- | --- |" + " ---: |" * 7,
     ]
     for model in MODELS:
         for each in closed_forms.in_series(model):
@@ -113,7 +113,7 @@ def histories() -> list[str]:
     found = {(case, model, p): history(case, model, p) for _, case in DRAWN for model in MODELS for p, _ in PRESSURES}
     save_png(draw_histories(found), HERE, "histories")
     lines = ["| hit | model | elastic, kN | 2 MPa, kN | 1 MPa, kN | crushed, mm, at 2 and 1 MPa | residual, the largest |",
-             "| --- | --- | " + "---: | " * 5]  # fmt: skip
+             "| --- | --- |" + " ---: |" * 5]  # fmt: skip
     for name, case in DRAWN:
         for model in MODELS:
             of = [found[case, model, p] for p, _ in PRESSURES]
@@ -126,7 +126,7 @@ def histories() -> list[str]:
 def random_collisions() -> list[str]:
     lines = [
         "| model | collisions | crush, % | energy kept, median, % | kept, most, % | residual, median | largest |",
-        "| --- | " + "---: | " * 6,
+        "| --- |" + " ---: |" * 6,
     ]
     for model in MODELS:
         found = collisions.survey(model)
