@@ -75,7 +75,7 @@ def collide(k, dt, shapes, vertex, face_normal, solids, bodies, pairs, contact, 
     radius_b = radius_at(shapes, vertex, b, sub(pb, offset))
     gap = distance - shapes.radius[a] - radius_b + worn(contact, k, pairs)
     if gap >= 0.0:
-        gap = remember(contact, k, gap, bodies, pairs, pa)
+        gap = remember(contact, k, gap, shapes.radius[a] + radius_b, bodies, pairs, pa)
         pairs.wake[k] = bodies.path[a] + bodies.path[b] + gap
         if pairs.overlap[k] > 0.0:
             _end_contact(pairs, k, dt)

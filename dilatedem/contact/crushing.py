@@ -144,15 +144,16 @@ def _step(excess, force, stored, overlap, limit, limit_rate):
 
 
 @item
-def _keeps(contact, k, gap, bodies, pairs, pa):
+def _keeps(contact, k, gap, reach, bodies, pairs, pa):
     return gap
 
 
 @item
-def _remember(contact, k, gap, bodies, pairs, pa):
+def _remember(contact, k, gap, reach, bodies, pairs, pa):
     """The gap [m] of pair k, which has come off, with what it still remembers of its crushed depth.
 
-    pa: place on a's core that is nearest, from a's centroid.
+    reach [m]: of both dilations; pa: place on a's core that is nearest, from a's centroid. A dent reaches as far from its middle as
+    the other body's curvature lets it.
     """
     crushed = pairs.crushed[k]
     if crushed == 0.0:
@@ -163,7 +164,7 @@ def _remember(contact, k, gap, bodies, pairs, pa):
     left = crushed
     if whole > GONE:
         left = 0.0
-    elif aside * aside * contact.crushing_pressure > pairs.bears[k]:  # beyond the root of its area
+    elif aside * aside > 2.0 * reach * crushed:
         left = min(crushed, max(-whole, 0.0))
     pairs.crushed[k] = left
     return whole + left
