@@ -37,7 +37,6 @@ class Search(NamedTuple):
     low: float  # m, where the force is above the limit
     high: float  # m, where it is below
     first: float  # m, the crushed depth of the last step
-    first_limit: float  # N, the limit there
 
 
 class Crushed(NamedTuple):
@@ -48,7 +47,7 @@ class Crushed(NamedTuple):
 
 
 #: of a contact that was not looked at yet
-UNTRIED = Search(0, 0.0, inf, 0.0, 0.0)
+UNTRIED = Search(0, 0.0, inf, 0.0)
 #: of a contact that bears everything
 WHOLE = Crushed(inf, 0.0)
 
@@ -88,15 +87,15 @@ def _settle(
         return True, crushed, search, Crushed(remembered, 0.0)
     area, rate = nominal_area(vertex, face_normal, shapes, pairs.a[k], pairs.b[k], offset, normal, pa, pb, crushed, scratch)
     limit, limit_rate = _limit(contact, area, rate)
-    tries, low, high, first, first_limit = search
+    tries, low, high, first = search
     excess = force - limit
     if tries == 0:
         if excess <= 0.0:
             return True, crushed, search, Crushed(limit, 0.0)
-        low, high = crushed, crushed + overlap
-        first, first_limit = crushed, limit
+        low, high, first = crushed, crushed + overlap, crushed
     elif abs(excess) <= CLOSE * limit or tries > MOST:
-        return True, crushed, search, Crushed(max(limit, force), 0.5 * (first_limit + force) * (crushed - first))
+        # as a trapezoid in time: what the bodies paid for it, also in the step in which it begins
+        return True, crushed, search, Crushed(max(limit, force), 0.5 * (pairs.normal_force[k] + force) * (crushed - first))
     elif excess > 0.0:
         low = crushed
     else:
@@ -106,7 +105,7 @@ def _settle(
         further = crushed + _step(excess, force, stored, overlap, limit, limit_rate)
         if not low < further < high:
             further = 0.5 * (low + high)
-    return False, further, Search(tries + 1, low, high, first, first_limit), Crushed(limit, 0.0)
+    return False, further, Search(tries + 1, low, high, first), Crushed(limit, 0.0)
 
 
 @item

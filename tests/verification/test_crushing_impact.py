@@ -57,3 +57,4 @@ def test_elasticity_and_crushing_in_series(model):
         assert hit.depth == pytest.approx(expected.depth, rel=1e-3), each.what
         assert hit.restitution == pytest.approx(expected.restitution, rel=2e-3), each.what
         assert hit.lost == pytest.approx(expected.lost, rel=1e-3), each.what
+        assert abs(hit.residual) < 1e-4, each.what
