@@ -8,10 +8,10 @@ from dilatedem.motion.energy import book_energies
 from dilatedem.motion.paces import foresee
 from dilatedem.motion.timestep import assembled_frequency
 from dilatedem.state.clock import Status
+from dilatedem.step.crushed import record_crushed
 from dilatedem.step.hits import watch_hits
 from dilatedem.step.launch import collide_pairs, complete_spins, drift_bodies, float_and_kick, longest_path, surprised, tick
 from dilatedem.step.stages import COLLIDE, DRIFT, FLOAT, FORESEE, IDLE, RECORD, SEARCH, WAKE
-from dilatedem.structures.crushed import record_crushed
 from dilatedem.structures.record import end_window, load_structures, record_loads
 
 DONE, PAIRS_FULL, TOO_FAST, TOO_DEEP = int(Status.DONE), int(Status.PAIRS_FULL), int(Status.TOO_FAST), int(Status.TOO_DEEP)

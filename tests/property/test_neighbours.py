@@ -43,8 +43,9 @@ def test_no_contact_is_missed(boundary):
         clock.dt[0] = 0.0
         workspace = make_workspace(simulation.model.shapes, simulation.model.hulls, len(fresh.a), 1)
         status = advance(
-            Alone(), NoTimer(), simulation.model, copies, fresh, empty_pairs(len(fresh.a)), simulation.cells, workspace,
-            empty_tally(), empty_ledger(), loads, simulation.windows, clock, 1, 1,
+            Alone(), NoTimer(), simulation.model, state.ids, copies, state.excursions, fresh, empty_pairs(len(fresh.a)),
+            simulation.cells, workspace, empty_tally(), empty_ledger(), loads, simulation.windows, state.hits, simulation.log,
+            clock, 1, 1,
         )  # fmt: skip
         assert status == 0
         anew = open_contacts(fresh)

@@ -27,7 +27,7 @@ def assert_stopped(done, out, sentence: str) -> dict:
     summary = json.loads((out / "summary.json").read_text())
     assert summary["status"] == "stopped" and summary["message"] == done.stderr.strip()
     groups, meta = checkpoint.load(out / "stopped.h5")
-    assert groups.keys() == {"ids", "bodies", "pairs", "ledger", "loads", "clock"}
+    assert groups.keys() == {"ids", "bodies", "pairs", "hits", "ledger", "loads", "clock", "excursions"}
     assert groups["clock"]["step"][0] == summary["steps"]
     with h5py.File(out / "run.h5") as file:
         assert file["floes/body"][()].size == summary["floes"]

@@ -179,7 +179,7 @@ def test_ice_that_hardly_crushes_is_elastic():
         core = rotation.apply([[x, y, z] for x in (-1.36, 1.36) for y in (-1.36, 1.36) for z in (-0.21, 0.21)])
         poses.append((float(tilts.seat_on_column(core[None, :, :2], PILE_RADIUS + 0.04 - 5e-4)[0]), rotation))
     found = []
-    for pressure in (None, 1e12):
+    for pressure in (None, 1e18):
         probe = Probe(scene("consistent", FLOE, PILE, crushing=pressure))
         turns = Rotation.concatenate([rotation for _, rotation in poses])
         answers = probe.at(

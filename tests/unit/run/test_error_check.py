@@ -24,6 +24,7 @@ from dilatedem.state.bodies import bodies_at_rest
 from dilatedem.state.clock import Status, clock_at_start
 from dilatedem.state.loads import empty_loads, no_windows
 from dilatedem.state.pairs import ALONE, empty_pairs, in_use, packed, unpacked
+from dilatedem.state.supports import excursions_at_start
 
 CASES = Path(__file__).parents[2] / "cases"
 PILE = {"kind": "pile", "center": [0.0, 0.0]}
@@ -116,7 +117,7 @@ def test_without_the_key_there_is_no_check_and_no_copy(tmp_path):
     out = tmp_path / "run"
     assert "error_check" not in summary_of(one_floe(error_check=False), out)
     groups, meta = checkpoint.load(out / "restart.h5")
-    assert groups.keys() == {"ids", "bodies", "pairs", "hits", "ledger", "loads", "clock"} and "watch" not in meta
+    assert groups.keys() == {"ids", "bodies", "pairs", "hits", "ledger", "loads", "clock", "excursions"} and "watch" not in meta
 
 
 def test_a_replay_that_stops_is_told_and_ends_no_run(monkeypatch, tmp_path):
@@ -185,7 +186,10 @@ def watched(peaks: dict[float, float], *, end: float, dt: float = 1e-3) -> Watch
     """A watch that looked every 0.01 s and found these loads (time [s] -> N) on the second of two structures."""
     watch, loads = Watch(dt), empty_loads(2, 2)
     windows = no_windows(2)
-    state = SimpleNamespace(clock=clock_at_start(), loads=loads, bodies=bodies_at_rest(1, 1), pairs=empty_pairs(3))
+    state = SimpleNamespace(
+        clock=clock_at_start(), loads=loads, bodies=bodies_at_rest(1, 1), pairs=empty_pairs(3),
+        excursions=excursions_at_start(np.zeros((2, 3)), np.zeros((2, 3))),
+    )  # fmt: skip
     for look in range(round(end / 0.01) + 1):
         state.clock.step[0] = round(look * 0.01 / dt)
         loads.steps[0] = min(look, 1)

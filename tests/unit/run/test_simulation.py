@@ -143,7 +143,7 @@ def test_the_case_file_of_a_run_names_version_and_seed(crowded):
 
 
 def test_an_interrupt_while_compiling_leaves_no_folder(tmp_path, monkeypatch):
-    def interrupted(*asked):
+    def interrupted(*asked, **more):
         raise KeyboardInterrupt
 
     monkeypatch.setattr(loop, "compile_kernels", interrupted)
