@@ -18,7 +18,7 @@ from dilatedem.contact.liu2015.patch import (
     is_inside,
     point_mode,
 )
-from dilatedem.contact.search.cone import cone_of
+from dilatedem.contact.search.cone import cone_of, own_radius
 from dilatedem.contact.support import EDGE, FACE, PARALLEL, VERTEX, corner_feature, support_feature
 from dilatedem.geometry.shapes import TaperedShapes
 from dilatedem.jit import by_type, device
@@ -73,11 +73,6 @@ def _patch_at_cone(
 
 
 @device
-def _own_radius(shapes, vertex, body, place):
-    return shapes.radius[body]
-
-
-@device
 def _radius_under(shapes, vertex, body, place):
     if shapes.taper[body] == 0.0:
         return shapes.radius[body]
@@ -90,4 +85,4 @@ def _radius_under(shapes, vertex, body, place):
 #: The patch of a contact, as `patch.contact_patch`.
 patch_of = by_type(contact_patch, {TaperedShapes: _patch_at_cone}, at=2)
 #: Radius of a body's side under a place on it, from its centroid [m].
-radius_under = by_type(_own_radius, {TaperedShapes: _radius_under})
+radius_under = by_type(own_radius, {TaperedShapes: _radius_under})

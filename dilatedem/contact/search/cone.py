@@ -228,7 +228,7 @@ def _name_corners(shapes, pairs, k, b, count, past):
 
 
 @device
-def _own_radius(shapes, vertex, body, place):
+def own_radius(shapes, vertex, body, place):
     """Dilated radius of a body at a place of its core, from its centroid [m]."""
     return shapes.radius[body]
 
@@ -244,4 +244,4 @@ def _radius_on_axis(shapes, vertex, body, place):
 #: Distance of two cores and where it is attained.
 closest = by_type(closest_points, {TaperedShapes: closest_to_cone}, at=2)
 #: Dilated radius of a body at a place of its core, from its centroid [m].
-radius_at = by_type(_own_radius, {TaperedShapes: _radius_on_axis})
+radius_at = by_type(own_radius, {TaperedShapes: _radius_on_axis})
