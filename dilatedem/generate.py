@@ -16,9 +16,12 @@ from dilatedem.files.whose import refuse_foreign, refuse_links
 from dilatedem.output.folder import holds_run
 from dilatedem.output.summary import write_json
 from dilatedem.output.vtu import write_shapes
+from dilatedem.scene.facts import field_facts
 from dilatedem.scene.place import Scene, compose
 
 SIZE_MAP = "viridis"
+#: of a size, differences that are none
+ALIKE = 1e-6
 FACTS = "field.json"
 FILES = (FACTS, "field.vtu", "field.png")
 
@@ -68,33 +71,6 @@ def _holds_field(folder: Path) -> bool:
     return isinstance(facts, dict) and "concentration_without_left_out" in facts
 
 
-def field_facts(case: Case, scene: Scene) -> dict:
-    """What field.json says: counts, concentration, sizes (square roots of plan areas) and seed."""
-    domain_area = math.prod(case.domain.size)
-    generated = case.field.source == "voronoi"
-    field = scene.field
-    areas = field.plan_area if generated else scene.plan_area
-    size = np.sqrt(areas)
-    return {
-        "source": case.field.source,
-        "seed": case.field.seed if generated else None,
-        "count": len(areas),
-        "explicit_bodies": scene.explicit,
-        "left_out_at_structures": field.left_out,
-        "concentration_asked": case.field.concentration if generated else None,
-        "concentration": field.concentration if generated else float(areas.sum() / domain_area),
-        "concentration_without_left_out": float(areas.sum() / domain_area),
-        "floe_size_m": {
-            "asked": case.field.floe_size if generated else None,
-            "root_of_mean_area": float(np.sqrt(areas.mean())) if len(areas) else None,
-            "mean": float(size.mean()) if len(areas) else None,
-            "median": float(np.median(size)) if len(areas) else None,
-            "min": float(size.min()) if len(areas) else None,
-            "max": float(size.max()) if len(areas) else None,
-        },
-    }
-
-
 def _picture(case: Case, placed: Scene) -> Callable[[], bytes]:
     """The plan of the field, floes coloured by size; call the result for the bytes of a PNG."""
     # Imported here: matplotlib takes half a second, which a wrong case should not wait for.
@@ -127,7 +103,7 @@ def _picture(case: Case, placed: Scene) -> Callable[[], bytes]:
         plan.dress(axes, scene, view, water=canvas.WATER)
         plan.draw_domain(axes, scene)
         size = np.sqrt(placed.plan_area)
-        style = {"cmap": SIZE_MAP, "edgecolors": canvas.ICE_EDGE, "linewidths": 0.4}
+        style = {"cmap": SIZE_MAP, **_scale(size), "edgecolors": canvas.ICE_EDGE, "linewidths": 0.4}
         floes = plan.draw_floes(axes, scene, view, outlines, array=size, **style)
         plan.draw_structures(axes, scene)
         plan.draw_flows(axes, scene)
@@ -144,6 +120,13 @@ def _picture(case: Case, placed: Scene) -> Callable[[], bytes]:
         return image.getvalue()
 
     return picture
+
+
+def _scale(size: np.ndarray) -> dict:
+    """Ends of the scale of colours where all floes are of one size (n,) [m], so that no round-off is drawn."""
+    if not len(size) or np.ptp(size) > ALIKE * size.max():
+        return {}
+    return {"clim": (0.9 * size.mean(), 1.1 * size.mean())}
 
 
 def _title(case: Case, count: int) -> str:

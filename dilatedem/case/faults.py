@@ -76,11 +76,15 @@ def _kinds(path: Path) -> list[str]:
     """What may stand under `kind` in the table at `path`."""
     if path[-1] == "support":
         return list(schema.SUPPORTS)
+    if path[-1] == "size_distribution":
+        return list(schema.DISTRIBUTIONS)
     return [name for name, kind in schema.STRUCTURES.items() if "part" not in path or kind in SINGLE]
 
 
 def _without_kind(path: Path) -> Path:
-    # pydantic names the kind of a structure, of its part and of a support after them; the case file does not.
+    # pydantic names the kind of a structure, of its part, of a support and of a distribution after them; the case file does not.
+    if len(path) > 2 and path[:2] == ("field", "size_distribution") and path[2] in schema.DISTRIBUTIONS:
+        path = (*path[:2], *path[3:])
     for where, table in ((2, "structure"), (4, "part")):
         if len(path) > where and path[where - 2] == table and path[where] in schema.STRUCTURES:
             path = (*path[:where], *path[where + 1 :])

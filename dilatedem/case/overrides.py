@@ -21,6 +21,8 @@ _ALTERNATIVES: dict[Path, tuple[str, ...]] = {
     ("field", "floe_size"): ("floe_count",),
     ("field", "floe_count"): ("floe_size",),
 }
+#: the same of a distribution of floe sizes, by its kind
+_IMPLIED = {"power_law": ("floe_size", "floe_count")}
 
 
 @dataclass(frozen=True)
@@ -84,12 +86,19 @@ def apply(data: dict, override: Override) -> Path:
         path = (*path, step)
         if last:
             node[step] = override.value
-            for other in _ALTERNATIVES.get(path, ()):
+            for other in _alternatives(path, override.value):
                 node.pop(other, None)
         else:
             node[step] = list(node[step]) if isinstance(node[step], tuple) else node[step]
             node = node[step]
     return path
+
+
+def _alternatives(path: Path, value: Any) -> tuple[str, ...]:
+    """Keys beside the one at `path` that a value for it takes back."""
+    if path == ("field", "size_distribution") and isinstance(value, dict):
+        return _IMPLIED.get(str(value.get("kind")), ())
+    return _ALTERNATIVES.get(path, ())
 
 
 def _item(items: list, part: str, path: Path, override: Override) -> int:

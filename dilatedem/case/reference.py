@@ -8,7 +8,7 @@ from typing import Any
 
 from pydantic.fields import FieldInfo
 
-from dilatedem.case.schema import STRUCTURES, SUPPORTS, TABLES, Body, Case, json_schema
+from dilatedem.case.schema import DISTRIBUTIONS, STRUCTURES, SUPPORTS, TABLES, Body, Case, json_schema
 from dilatedem.keys import OTHER_RANGE, RANGES, Table
 
 PAGE = Path("docs", "case-file.md")
@@ -47,6 +47,8 @@ def page() -> str:
     for name in Case.model_fields:
         if name in TABLES:
             parts += _section(f"[{name}]", TABLES[name], definitions)
+            for kind, distribution in DISTRIBUTIONS.items() if name == "field" else ():
+                parts += _section(f'[field] size_distribution = {{kind = "{kind}"}}', distribution, definitions)
         elif name == "structure":
             for kind, structure in STRUCTURES.items():
                 parts += _section(f'[[structure]] kind = "{kind}"', structure, definitions)

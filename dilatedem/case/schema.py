@@ -9,9 +9,10 @@ from typing import Annotated, Any, Literal, Union
 from pydantic import Field, model_validator
 
 from dilatedem.case.bodies import Body
+from dilatedem.case.field import IceField
 from dilatedem.case.names import name_faults
+from dilatedem.field import distribution
 from dilatedem.keys import (
-    LARGEST_INTEGER,
     Boundary,
     Fault,
     Friction,
@@ -46,40 +47,26 @@ class Domain(Table):
         "`outflow` drops what has left as a whole.",
     )
     y_boundary: Boundary = key("open", "", "The two sides at y = -size/2 and +size/2.")
-
-
-class IceField(Table):
-    """The floes at the start: Voronoi cells of random points, shrunk to the concentration asked for."""
-
-    source: Literal["voronoi", "bodies"] = key(
-        "voronoi", "", "`voronoi` generates floes; `bodies` takes the `[[body]]` entries and nothing else."
-    )
-    floe_size: Positive | None = key(None, "m", "Square root of the mean floe area; 2.8 unless `floe_count` is given.")
-    floe_count: Annotated[int, Field(ge=1)] | None = key(
-        None, "", "Number of floes before those that touch a structure are left out; instead of `floe_size`."
-    )
-    concentration: Annotated[float, Field(gt=0, lt=1)] = key(0.64, "", "Share of the domain's area that is covered by ice.")
-    seed: Annotated[int, Field(ge=0, le=LARGEST_INTEGER)] = key(
-        1, "", "Seed of the random points; the same seed gives the same field."
+    wall_friction: Friction | None = key(
+        None, "", "Coefficient of friction with sides that are a `wall`, such as those of a tank; `contact.friction` unless given."
     )
 
     def faults(self) -> list[Fault]:
-        if self.floe_size is not None and self.floe_count is not None:
-            return [(("floe_count",), "give either floe_size or floe_count, not both")]
+        if self.wall_friction is not None and "wall" not in (self.x_boundary, self.y_boundary):
+            return [(("wall_friction",), 'needs a side that is a wall: x_boundary = "wall" or y_boundary = "wall"')]
         return []
-
-    @model_validator(mode="after")
-    def _default_size(self):
-        if self.floe_size is None and self.floe_count is None:
-            complete(self, "floe_size", 2.8)
-        return self
 
 
 class Ice(Table):
     """The floes' material and shape. Thickness and outline are outer sizes, dilation included."""
 
     density: Positive = key(915.0, "kg/m3", "Density of the ice.")
-    thickness: Positive = key(0.5, "m", "Outer thickness of a floe.")
+    thickness: Positive = key(0.5, "m", "Outer thickness of a floe; the mean where it varies.")
+    thickness_spread: Annotated[float, Field(ge=0, le=1)] = key(
+        0.0,
+        "",
+        "Standard deviation of the thickness of the generated floes over its mean; lognormal. Each floats at its own draught.",
+    )
     dilated_radius: Positive = key(0.04, "m", "Radius by which a floe's edges and corners are rounded; at most half the thickness.")
     elastic_modulus: Positive = key(1.0e9, "Pa", "Young's modulus in contact.")
     poisson_ratio: PoissonRatio = key(0.3, "", "Poisson's ratio.")
@@ -237,7 +224,8 @@ class Case(Table):
         return {"model": self.contact.model, "damping_law": self.contact.damping_law, "crushing": crushing}
 
     def faults(self) -> list[Fault]:
-        return [*name_faults(self.structure, self.body), *self._body_faults(), *self._track_faults(), *self._check_faults()]
+        found = [*name_faults(self.structure, self.body), *self._body_faults(), *self._track_faults(), *self._check_faults()]
+        return [*found, *self._front_faults()]
 
     @model_validator(mode="after")
     def _fill_bodies(self):
@@ -278,6 +266,12 @@ class Case(Table):
             return [(("time", "error_check"), text)]
         return []
 
+    def _front_faults(self) -> list[Fault]:
+        closed = ("periodic", "wall")
+        if self.field.front == "ragged" and self.domain.x_boundary in closed and self.domain.y_boundary in closed:
+            return [(("field", "front"), 'must be "straight" where no side is open: ice ends nowhere')]
+        return []
+
     def _track_faults(self) -> list[Fault]:
         # The number of generated floes is known only once the field was built, so that is checked there.
         if self.field.source != "bodies" or self.output.track == "all" or not self.body:
@@ -296,16 +290,22 @@ TABLES: dict[str, type[Table]] = {
 }
 STRUCTURES: dict[str, type[Table]] = dict(kinds.BY_NAME)
 SUPPORTS: dict[str, type[Table]] = dict(support.BY_NAME)
+DISTRIBUTIONS: dict[str, type[Table]] = dict(distribution.BY_NAME)
 
 
 def table_of(path: tuple[str | int, ...], data: dict) -> tuple[type[Table], str] | None:
     """The table that the key at or around `path` belongs to, and the key; None where there is none.
 
     path : keys and list positions from the top, as in ("structure", 0, "radius").
-    data : the case as read, not validated; it tells the kind of a structure and of its support.
+    data : the case as read, not validated; it tells the kind of a structure, of its support and of a distribution.
     """
     if len(path) == 1:
         return Case, str(path[0])
+    if path[:2] == ("field", "size_distribution") and len(path) > 2:
+        try:
+            return DISTRIBUTIONS[data["field"]["size_distribution"]["kind"]], str(path[2])
+        except (KeyError, TypeError):
+            return None
     if path[0] in TABLES:
         return TABLES[path[0]], str(path[1])
     if len(path) < 3 or path[0] not in ("structure", "body"):

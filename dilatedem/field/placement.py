@@ -17,7 +17,7 @@ import shapely
 from numpy.typing import ArrayLike
 
 from dilatedem.field.obstacles import Disk, HalfPlane, Obstacle
-from dilatedem.field.tessellation import voronoi_cells
+from dilatedem.field.recipe import Recipe
 from dilatedem.geometry import outline as plan
 from dilatedem.geometry.polyhedron import Polyhedron
 from dilatedem.numerics.blocks import place
@@ -27,6 +27,8 @@ from dilatedem.numerics.root import bracketed_root
 # A floe whose core vanishes when it is made smaller by this part counts as too small.
 VANISHING = 1e-12
 EPSILON = float(np.finfo(float).eps)
+#: cells of random points
+PLAIN = Recipe()
 
 
 Groups = list[tuple[np.ndarray, np.ndarray]]  # cells (m,) of n sides and their corners (m, n, 2), for each n
@@ -38,16 +40,23 @@ class FloeField:
 
     outlines       outer outlines (k, 2) [m] in world coordinates, centroids inside a periodic domain
     plan_area      (floes,) plan area of each dilated floe [m2]
+    every_area     (floes and those left out,) the same of all floes that were made
     factor         by which the cells were shrunk
     concentration  dilated plan area of all floes, those left out included, over the area of the domain
-    left_out       number of floes left out because they touched an obstacle
+    kept           (floes and those left out,) which were not left out for touching an obstacle
     """
 
     outlines: plan.Outlines
     plan_area: np.ndarray
+    every_area: np.ndarray
     factor: float
     concentration: float
-    left_out: int
+    kept: np.ndarray
+
+    @property
+    def left_out(self) -> int:
+        """Number of floes left out."""
+        return int(np.count_nonzero(~self.kept))
 
 
 def ice_field(
@@ -59,8 +68,12 @@ def ice_field(
     seed: int,
     dilated_radius: float,
     obstacles: Sequence[Obstacle] = (),
+    recipe: Recipe = PLAIN,
+    ragged: Sequence[bool] = (False, False),
 ) -> FloeField:
     """`count` floes of `concentration` (between 0 and 1) in a domain of `size` (2,) [m] about the origin.
+
+    ragged: whether floes stick out of the sides along x and along y that are not periodic, as they come; else they end there.
 
     The concentration is met by all floes together, before those that touch an obstacle are left out. Raises
     ValueError when a floe gets too small for the dilated radius [m], or when the concentration cannot be
@@ -69,48 +82,56 @@ def ice_field(
     size = np.asarray(size, dtype=float)
     if not 0.0 < concentration < 1.0:
         raise ValueError(f"concentration = {concentration:g}: must lie between 0 and 1")
-    cells = voronoi_cells(size, count, periodic, seed)
-    groups = cells.by_sides()
+    whole = np.logical_or(periodic, ragged)  # cells beyond a ragged side are left out, none is cut
+    cells = recipe.nuclei(size, count, whole, np.random.default_rng(seed)).cells(size, whole)
+    groups, count = cells.by_sides(), len(cells)
     domain_area = float(np.prod(size))
-    factor = _shrink_factor(groups, concentration * domain_area, domain_area, dilated_radius)
-    plan_area, _ = _dilated_areas(groups, count, factor, dilated_radius)
+    factor = shrink_factor(groups, concentration * domain_area, domain_area, dilated_radius)
+    plan_area, _ = dilated_areas(groups, count, factor, dilated_radius)
     # a hair below, where a floe whose core is just vanishing shows itself: the area jumps there
-    _, too_small = _dilated_areas(groups, count, factor * (1.0 - VANISHING), dilated_radius)
+    _, too_small = dilated_areas(groups, count, factor * (1.0 - VANISHING), dilated_radius)
     if too_small.any():
         raise ValueError(
             f"{too_small.sum()} of {count} floes are too narrow for the dilated radius {dilated_radius:g} m: "
             "take a smaller dilated_radius, larger floes, or another seed"
         )
 
-    outlines = plan.Outlines(np.empty_like(cells.points), cells.start)
-    for index, corners in groups:
-        middle = plan.centroid(corners)
-        shrunk = middle[:, None] + factor * (corners - middle[:, None])
-        home = np.where(periodic, -size * np.floor(middle / size + 0.5), 0.0)
-        place(outlines.points, cells.start[index], shrunk + home[:, None])
-    touching = _touching(outlines, obstacles, size, periodic)
+    outlines = shrunk(cells, factor, np.where(whole, size, 0.0))
+    touching = touching_obstacles(outlines, obstacles, size, periodic)
     return FloeField(
         outlines=outlines.where(~touching),
         plan_area=plan_area[~touching],
+        every_area=plan_area,
         factor=factor,
         concentration=float(plan_area.sum() / domain_area),
-        left_out=int(touching.sum()),
+        kept=~touching,
     )
 
 
-def equilibrium_height(outer: Polyhedron, density: float, water_density: float) -> float | np.ndarray:
+def shrunk(cells: plan.Outlines, factor: float, period: np.ndarray) -> plan.Outlines:
+    """Each cell shrunk about its centroid, which is brought into the domain where that has a period (2,) [m], 0 = none."""
+    outlines = plan.Outlines(np.empty_like(cells.points), cells.start)
+    for index, corners in cells.by_sides():
+        middle = plan.centroid(corners)
+        smaller = middle[:, None] + factor * (corners - middle[:, None])
+        home = np.where(period > 0.0, -period * np.floor(middle / np.where(period > 0.0, period, 1.0) + 0.5), 0.0)
+        place(outlines.points, cells.start[index], smaller + home[:, None])
+    return outlines
+
+
+def equilibrium_height(outer: Polyhedron, density: float | np.ndarray, water_density: float) -> float | np.ndarray:
     """z [m] of the centroid of a floe that floats flat: exact for a right prism centred on the origin; (m,) for a stack.
 
     outer is the sharp outer polyhedron in body coordinates; its draft is the part density / water_density of
     its height. Raises ValueError for ice too heavy to float.
     """
-    if not density < water_density:
-        raise ValueError(f"density = {density:g} kg/m3: must be below that of the water, {water_density:g} kg/m3, to float")
+    if not np.all(density < water_density):
+        raise ValueError(f"density = {np.max(density):g} kg/m3: must be below that of the water, {water_density:g} kg/m3, to float")
     bottom, top = outer.vertices[..., 2].min(axis=-1), outer.vertices[..., 2].max(axis=-1)
     return -bottom - (top - bottom) * density / water_density
 
 
-def _dilated_areas(groups: Groups, count: int, factor: float, radius: float) -> tuple[np.ndarray, np.ndarray]:
+def dilated_areas(groups: Groups, count: int, factor: float, radius: float) -> tuple[np.ndarray, np.ndarray]:
     """(count,) plan areas [m2] of dilated floes made of cells shrunk by `factor`, and which have no core.
 
     One without a core counts with its sharp outline, so that the search for the factor can go on.
@@ -128,13 +149,13 @@ def _dilated_areas(groups: Groups, count: int, factor: float, radius: float) -> 
     return area, without_core
 
 
-def _shrink_factor(groups: Groups, ice_area: float, domain_area: float, radius: float) -> float:
+def shrink_factor(groups: Groups, ice_area: float, domain_area: float, radius: float) -> float:
     """The factor at which the dilated floes cover `ice_area` [m2] together."""
     count = sum(len(index) for index, _ in groups)
 
     @cache  # the ends of the range are asked for more than once
     def excess(factor: float) -> float:
-        return float(_dilated_areas(groups, count, factor, radius)[0].sum()) - ice_area
+        return float(dilated_areas(groups, count, factor, radius)[0].sum()) - ice_area
 
     # Sharp outlines cover factor^2 of the domain, and round corners only take away from that.
     lowest = math.sqrt(ice_area / domain_area)
@@ -149,7 +170,9 @@ def _shrink_factor(groups: Groups, ice_area: float, domain_area: float, radius: 
     return bracketed_root(excess, lowest, 1.0, absolute=1e-15, relative=4.0 * EPSILON)
 
 
-def _touching(outlines: plan.Outlines, obstacles: Sequence[Obstacle], size: np.ndarray, periodic: Sequence[bool]) -> np.ndarray:
+def touching_obstacles(
+    outlines: plan.Outlines, obstacles: Sequence[Obstacle], size: np.ndarray, periodic: Sequence[bool]
+) -> np.ndarray:
     """(floes,) whether an outline touches or overlaps an obstacle or a periodic image of one."""
     corners, start, sides = outlines.points, outlines.start[:-1], outlines.sides
     touching = np.zeros(len(outlines), dtype=bool)

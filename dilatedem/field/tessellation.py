@@ -1,4 +1,4 @@
-"""Voronoi cells of random points: the pattern of cracks that the floes are cut from (Liu 2015, section 3.1).
+"""Voronoi cells of points: of random ones, the pattern of cracks that floes are cut from (Liu 2015, section 3.1).
 
 Both kinds of boundary come from copies of the points around the domain. Copies moved by a period make the
 cells periodic: a cell may stick out across the seam and is kept whole. Mirrored copies make the domain's edge
@@ -12,10 +12,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import ArrayLike
 from scipy.spatial import Voronoi
 
-from dilatedem.geometry.outline import Outlines
+from dilatedem.geometry.outline import Outlines, centroid
 from dilatedem.numerics.blocks import offsets
 from dilatedem.numerics.plain import angle, norm
 
@@ -28,23 +27,6 @@ PLACES = 2**16
 # more than three cells meet (every one on a mirrored edge) come out of the hull several times, round-off
 # apart.
 RESOLUTION = 1e-9
-
-
-def voronoi_cells(size: ArrayLike, count: int, periodic: Sequence[bool], seed: int | np.random.Generator) -> Outlines:
-    """Voronoi cells of `count` points drawn uniformly in the domain, numbered in space: neighbours have numbers that are near.
-
-    size      (2,) [m], the domain, centred on the origin
-    periodic  whether the x and the y boundaries are periodic; cells end at the others
-    seed      of numpy's default generator: the same seed gives the same cells
-
-    Returns `count` convex counter-clockwise outlines (n, 2) [m] that together tile the domain.
-    """
-    size = np.asarray(size, dtype=float)
-    if count < 1:
-        raise ValueError(f"floe count = {count}: must be at least 1")
-    drawn = np.random.default_rng(seed).random((count, 2))
-    points = (drawn[order_in_space(drawn * size)] - 0.5) * size
-    return cells_of_points(points, size, periodic)
 
 
 def order_in_space(points: np.ndarray) -> np.ndarray:
@@ -66,31 +48,57 @@ def order_in_space(points: np.ndarray) -> np.ndarray:
 
 
 def cells_of_points(points: np.ndarray, size: np.ndarray, periodic: Sequence[bool]) -> Outlines:
-    """The cells of given `points` (n, 2) [m] inside the domain; see voronoi_cells."""
+    """Voronoi cells of `points` (n, 2) [m] in a domain, which they tile.
+
+    size      (2,) [m], the domain, centred on the origin
+    periodic  whether the x and the y boundaries are periodic; cells end at the others
+
+    Returns convex counter-clockwise outlines (k, 2) [m], one a point.
+    """
     spacing = float(np.sqrt(np.prod(size) / len(points)))
     belt = BELT * spacing
     while True:
-        around = _with_copies(points, size, periodic, belt)
+        around = with_copies(points, size, periodic, belt)
         diagram = Voronoi(around)
         corner, start = _sorted_corners(diagram, len(points))
         if _belt_suffices(diagram, corner, start, points, size, belt):
             break
         belt *= 2.0
 
-    position = diagram.vertices[corner]
+    return distinct_corners(on_sides(diagram.vertices[corner], size, periodic, spacing), start, spacing)
+
+
+def on_sides(corners: np.ndarray, size: np.ndarray, periodic: Sequence[bool], spacing: float) -> np.ndarray:
+    """Corners (c, 2) [m], those that round-off has moved off a side of the domain back on it."""
+    position = corners.copy()
     for axis in range(2):
         if not periodic[axis]:
             half = 0.5 * size[axis]
             on_edge = np.abs(np.abs(position[:, axis]) - half) <= RESOLUTION * spacing
             position[on_edge, axis] = np.copysign(half, position[on_edge, axis])
-    cell = np.repeat(np.arange(len(points)), np.diff(start))
-    ahead = _next_in_cell(start)
-    distinct = norm(position[ahead] - position) > RESOLUTION * spacing
-    return Outlines(position[distinct], offsets(np.bincount(cell[distinct], minlength=len(points))))
+    return position
 
 
-def _with_copies(points: np.ndarray, size: np.ndarray, periodic: Sequence[bool], belt: float) -> np.ndarray:
-    """The points, then their periodic or mirror images within `belt` [m] of the domain."""
+def distinct_corners(corners: np.ndarray, start: np.ndarray, spacing: float) -> Outlines:
+    """Cells as outlines, of corners (c, 2) [m] that may be there several times; start (n + 1,): where those of a cell begin."""
+    cell = np.repeat(np.arange(len(start) - 1), np.diff(start))
+    distinct = norm(corners[_next_in_cell(start)] - corners) > RESOLUTION * spacing
+    return Outlines(corners[distinct], offsets(np.bincount(cell[distinct], minlength=len(start) - 1)))
+
+
+def centroids(cells: Outlines, size: np.ndarray, periodic: Sequence[bool]) -> np.ndarray:
+    """(n, 2) [m] centroids of cells, brought into a periodic domain."""
+    middle = np.empty((len(cells), 2))
+    for index, corners in cells.by_sides():
+        middle[index] = centroid(corners)
+    return middle - np.where(periodic, size * np.floor(middle / size + 0.5), 0.0)
+
+
+def with_copies(points: np.ndarray, size: np.ndarray, periodic: Sequence[bool], belt: float) -> np.ndarray:
+    """The points, then their periodic or mirror images within `belt` [m] of the domain.
+
+    points (n, 2 or more): what stands behind x and y goes along.
+    """
     for axis in range(2):
         half = 0.5 * size[axis]
         copies = [points]

@@ -14,20 +14,23 @@ from dilatedem.geometry.shapes import BodyShape
 LARGEST_STACK = 1024
 
 
-def floe_shapes(outlines: plan.Outlines, thickness: float, radius: float) -> Iterator[tuple[np.ndarray, BodyShape, np.ndarray]]:
-    """The shapes of floes over outer outlines, in world coordinates, of one outer `thickness` and dilated `radius` [m].
+def floe_shapes(
+    outlines: plan.Outlines, thickness: float | np.ndarray, radius: float
+) -> Iterator[tuple[np.ndarray, BodyShape, np.ndarray]]:
+    """The shapes of floes over outer outlines, in world coordinates, of outer `thickness`, one or (floes,), and dilated radius [m].
 
     Yields which floes (m,), their shapes as a stack, and their centroids (m, 3) [m] in the frame of the outlines, z from
     mid-thickness; every floe once, stack by stack. Raises ValueError for an outline of which erosion leaves nothing.
     """
-    half = 0.5 * thickness - radius
+    half = np.broadcast_to(0.5 * np.asarray(thickness) - radius, len(outlines))
     for index, corners in outlines.by_sides():
         left = 0
         for first in range(0, len(index), LARGEST_STACK):
             for eroded in plan.erode_together(corners[first : first + LARGEST_STACK], radius):
                 left += len(eroded.index)
-                for which, shape, centroid in _of_cores(prism(eroded.corners, -half, half), radius):
-                    yield index[first + eroded.index[which]], shape, centroid
+                floes = index[first + eroded.index]
+                for which, shape, centroid in _of_cores(prism(eroded.corners, -half[floes], half[floes]), radius):
+                    yield floes[which], shape, centroid
         if left < len(index):
             raise ValueError(f"{len(index) - left} outlines are too narrow: moved inwards by {radius:g} m, nothing is left of them")
 

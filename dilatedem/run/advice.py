@@ -7,7 +7,8 @@ import numpy as np
 from dilatedem.case.schema import Case
 from dilatedem.run.advice_driven import about_driven, extent, farthest
 from dilatedem.scene.overlaps import structures_in_each_other
-from dilatedem.scene.place import PlacedStructure, Scene, periodic_axes
+from dilatedem.scene.place import PlacedStructure, Scene
+from dilatedem.scene.recipe import periodic_axes
 from dilatedem.state.bodies import Bodies
 from dilatedem.state.model import Model
 from dilatedem.structures.kind import Part
@@ -57,7 +58,7 @@ def _about_thickness(case: Case, scene: Scene) -> str:
         return ""
     widths = {}
     if len(areas := scene.plan_area[scene.explicit :]):
-        widths["the floes"] = (case.ice.thickness, math.sqrt(areas.mean()))
+        widths["the floes"] = (float(scene.ice.thickness.mean()), math.sqrt(areas.mean()))
     for number, body in enumerate(case.body):
         if body.outline is not None and not body.fixed:
             widths[f"body {number}"] = (body.thickness, math.sqrt(scene.plan_area[number]))

@@ -3,7 +3,8 @@
 import numpy as np
 
 from dilatedem.case.schema import Case
-from dilatedem.scene.place import PlacedStructure, Scene, periodic_axes
+from dilatedem.scene.place import PlacedStructure, Scene
+from dilatedem.scene.recipe import periodic_axes
 from dilatedem.state.supports import Carried
 from dilatedem.structures.kind import Part
 

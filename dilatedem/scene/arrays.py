@@ -11,7 +11,8 @@ from dilatedem.numerics.blocks import offsets
 from dilatedem.numerics.frames import matrix_from_quaternion
 from dilatedem.numerics.plain import inverse, turned
 from dilatedem.scene.carriage import pack_supports, places, velocities_at_start
-from dilatedem.scene.place import Scene, periodic_axes
+from dilatedem.scene.place import Scene
+from dilatedem.scene.recipe import periodic_axes
 from dilatedem.scene.records import flow_direction
 from dilatedem.state.bodies import Bodies, Solids, bodies_at_rest
 from dilatedem.state.charts import Along, Charts
@@ -106,7 +107,7 @@ def _solids(case: Case, scene: Scene, supports: Supports) -> Solids:
     mass, inverse_mass, compliance = np.zeros(count), np.zeros(count), np.zeros(count)
     inertia, inverse_inertia = np.zeros((count, 3, 3)), np.zeros((count, 3, 3))
     free = np.ones(bodies, np.bool_)
-    compliance[:bodies], compliance[bodies:] = _compliance(case.ice), of_structures
+    compliance[scene.explicit : bodies], compliance[bodies:] = _compliance(scene.ice), of_structures
     for i, given in enumerate(case.body):
         free[i], compliance[i] = not given.fixed, _compliance(given)
     mass[:bodies] = scene.mass()
@@ -128,7 +129,7 @@ def _friction(case: Case, scene: Scene) -> np.ndarray:
     return np.array([usual] * scene.count + [usual if given is None else given for given in own])
 
 
-def _compliance(material) -> float:
+def _compliance(material) -> float | np.ndarray:
     """A body's term of Liu 2015, Eq. (7) [1/Pa]."""
     return (1.0 - material.poisson_ratio * material.poisson_ratio) / material.elastic_modulus
 
@@ -137,11 +138,8 @@ def initial_bodies(case: Case, scene: Scene, model: Model) -> Bodies:
     """All bodies where and as fast as the case says."""
     parts = _parts(scene)
     bodies = bodies_at_rest(scene.count + len(parts), len(WORKS))
-    ice_velocity = case.ice.initial_velocity
-    if ice_velocity == "current":
-        ice_velocity = (*case.water.velocity, 0.0) if case.water.enabled else (0.0, 0.0, 0.0)
     bodies.position[: scene.count], bodies.orientation[: scene.count] = scene.position, scene.orientation
-    bodies.velocity[scene.explicit : scene.count] = ice_velocity
+    bodies.velocity[scene.explicit : scene.count] = scene.ice.velocity
     for i, given in enumerate(case.body):
         bodies.velocity[i], bodies.angular_velocity[i] = given.velocity, given.angular_velocity
         if not given.fixed:
@@ -195,7 +193,7 @@ def _pack_charts(case: Case, scene: Scene) -> Charts:
         origin=origin,
         axis=axis,
         length=length,
-        heights=np.tile([factor * case.ice.thickness for factor in MAP_HEIGHTS], (count, 1)),
+        heights=np.tile([factor * scene.ice.thickness.max(initial=case.ice.thickness) for factor in MAP_HEIGHTS], (count, 1)),
         outline_start=offsets([len(outline) for outline in outlines]),
         outline=np.concatenate([np.zeros((0, 2)), *outlines]),
     )

@@ -13,15 +13,15 @@ from dilatedem.case.names import WALL_NAMES
 from dilatedem.case.schema import Case
 from dilatedem.errors import CaseError
 from dilatedem.field.obstacles import Region
-from dilatedem.field.placement import FloeField, equilibrium_height, ice_field
+from dilatedem.field.placement import FloeField, equilibrium_height
 from dilatedem.geometry import outline as plan
 from dilatedem.geometry.floes import floe_shapes
 from dilatedem.geometry.polyhedron import convex_hull, prism
 from dilatedem.geometry.shapes import BodyShape
 from dilatedem.numerics.frames import matrix_from_quaternion, quaternion_from_rotation_vector
 from dilatedem.numerics.plain import turned
+from dilatedem.scene.ice import IceProperties, floes_of
 from dilatedem.scene.records import Record, records_of
-from dilatedem.scene.room import generated_floes
 from dilatedem.state.storage import MOST_CORNERS
 from dilatedem.structures.held import HeldBody
 from dilatedem.structures.kind import Chart, Part, Structure, member_name
@@ -93,6 +93,7 @@ class Scene:
     structures: list[PlacedStructure]
     records: list[Record]  # rows of the record of loads: the structures, and sums over them
     field: FloeField
+    ice: IceProperties  # of the generated floes
 
     @property
     def count(self) -> int:
@@ -139,13 +140,15 @@ def compose(case: Case) -> Scene:
     explicit = [_explicit_body(case, number, body) for number, body in enumerate(case.body)]
     structures = _structures(case)
     try:
-        field = _floe_field(case, explicit)
-        return _scene(case, explicit, field, structures)
+        field, ice = floes_of(case, case.structure, [Region(body.core_outline, body.shape.radius) for body in explicit])
+        return _scene(case, explicit, field, ice, structures)
     except ValueError as fault:
         raise CaseError(f"the ice field cannot be built: {fault}") from fault
 
 
-def _scene(case: Case, explicit: list[PlacedBody], field: FloeField, structures: list[PlacedStructure]) -> Scene:
+def _scene(
+    case: Case, explicit: list[PlacedBody], field: FloeField, ice: IceProperties, structures: list[PlacedStructure]
+) -> Scene:
     """Explicit bodies and floes in one numbering. Raises ValueError for a floe that has no shape or does not float."""
     first = len(explicit)
     position, orientation = np.zeros((first + len(field.outlines), 3)), np.zeros((first + len(field.outlines), 4))
@@ -154,11 +157,11 @@ def _scene(case: Case, explicit: list[PlacedBody], field: FloeField, structures:
         position[number], orientation[number] = body.position, body.orientation
     shapes, order = [body.shape for body in explicit], [np.arange(first)]
     structures = [*structures, *_held(case, explicit)]
-    for floes, shape, centroid in floe_shapes(field.outlines, case.ice.thickness, case.ice.dilated_radius):
+    for floes, shape, centroid in floe_shapes(field.outlines, ice.thickness, case.ice.dilated_radius):
         order.append(first + floes)
         shapes.append(shape)
         position[order[-1]] = centroid
-        position[order[-1], 2] = _floating_height(case, shape, case.ice.density)
+        position[order[-1], 2] = _floating_height(case, shape, ice.density[floes])
     return Scene(
         explicit=first,
         shapes=shapes,
@@ -167,32 +170,11 @@ def _scene(case: Case, explicit: list[PlacedBody], field: FloeField, structures:
         orientation=orientation,
         outlines=plan.Outlines.of([*(body.outline for body in explicit), *field.outlines]) if explicit else field.outlines,
         plan_area=np.concatenate([[body.plan_area for body in explicit], field.plan_area]),
-        density=np.concatenate([[body.density for body in case.body], np.full(len(field.outlines), case.ice.density)]),
+        density=np.concatenate([[body.density for body in case.body], ice.density]),
         structures=structures,
         records=records_of(case, structures),
         field=field,
-    )
-
-
-def periodic_axes(case: Case) -> tuple[bool, bool]:
-    """Whether the domain is periodic along x and along y."""
-    return case.domain.x_boundary == "periodic", case.domain.y_boundary == "periodic"
-
-
-def _floe_field(case: Case, explicit: list[PlacedBody]) -> FloeField:
-    """The generated floes of a case, clear of its structures and of its explicit bodies."""
-    if case.field.source == "bodies":
-        return FloeField(plan.Outlines.of([]), np.zeros(0), 1.0, 0.0, 0)
-    count = generated_floes(case)
-    obstacles = [obstacle for structure in case.structure for obstacle in structure.obstacles(case.ice.thickness)]
-    return ice_field(
-        case.domain.size,
-        count,
-        case.field.concentration,
-        periodic=periodic_axes(case),
-        seed=case.field.seed,
-        dilated_radius=case.ice.dilated_radius,
-        obstacles=[*obstacles, *(Region(body.core_outline, body.shape.radius) for body in explicit)],
+        ice=ice,
     )
 
 
@@ -232,7 +214,8 @@ def _walls(case: Case) -> list[Structure]:
         for side, name in zip((-1.0, 1.0), WALL_NAMES[2 * axis : 2 * axis + 2], strict=True):
             point, normal = [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]
             point[axis], normal[axis] = 0.5 * side * case.domain.size[axis], -side
-            walls.append(Plane(kind="plane", name=name, point=tuple(point), normal=tuple(normal)))
+            plane = {"point": tuple(point), "normal": tuple(normal), "friction": case.domain.wall_friction}
+            walls.append(Plane(kind="plane", name=name, **plane))
     return walls
 
 
@@ -290,5 +273,5 @@ def _floe_shape(outline: np.ndarray, thickness: float, radius: float) -> tuple[B
     return BodyShape.of_core(prism(plan.erode(outline, radius), -half, half), radius)
 
 
-def _floating_height(case: Case, shape: BodyShape, density: float) -> float | np.ndarray:
+def _floating_height(case: Case, shape: BodyShape, density: float | np.ndarray) -> float | np.ndarray:
     return equilibrium_height(shape.outer, density, case.water.density) if case.water.enabled else 0.0

@@ -26,14 +26,14 @@ def memory(bodies: int) -> float:
 
 
 def generated_floes(case: Case) -> int:
-    """Number of floes that the field of a case is made of, before those that touch something are left out.
+    """Number of floes that a case asks for, before those that touch something are left out; a lattice may have a few more or less.
 
     Raises CaseError for more than the memory of this machine holds, and for a domain that is too narrow for them.
     """
     field, size = case.field, case.domain.size
-    key, value = ("floe_count", field.floe_count) if field.floe_count else ("floe_size", field.floe_size)
+    key, value = ("floe_count", field.floe_count) if field.floe_count else ("floe_size", field.asked_size)
     try:
-        count = field.floe_count or floe_count(size, field.concentration, field.floe_size)
+        count = field.floe_count or floe_count(size, field.concentration, field.asked_size)
     except ValueError as fault:
         raise CaseError(f"the ice field cannot be built: {fault}") from fault
     there = memory_of_machine()

@@ -30,7 +30,7 @@ def fault_lines(tmp_path: Path, text: str, *overrides: str) -> list[str]:
         ("[ice]\nthicknes = 1.0", 'pile.toml:2: ice.thicknes: unknown key; did you mean "thickness"?'),
         (
             "[domain]\nfoo = 1",
-            "pile.toml:2: domain.foo: unknown key; known here: size, x_boundary, y_boundary",
+            "pile.toml:2: domain.foo: unknown key; known here: size, x_boundary, y_boundary, wall_friction",
         ),
         ("[ice]\n\nthickness = -0.5", "pile.toml:3: ice.thickness = -0.5: must be greater than 0"),
         (

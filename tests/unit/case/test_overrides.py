@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from dilatedem.case.load import load
+from dilatedem.case.load import Source, build, load
 from dilatedem.case.overrides import Override, apply, parse, parse_value
 from dilatedem.case.schema import TABLES, Case
 from dilatedem.case.write import dump
@@ -31,6 +31,14 @@ PILE = Path(__file__).parents[3] / "cases" / "pile.toml"
 def test_values(text, value):
     assert parse_value(text, "--set x") == value
     assert type(parse_value(text, "--set x")) is type(value)
+
+
+def test_a_power_law_of_sizes_takes_back_the_number_of_floes_and_a_lognormal_one_does_not():
+    power = load(PILE, ['field.size_distribution={kind = "power_law", min = 1.0, max = 8.0}', "field.size_distribution.max=9"])
+    assert (power.field.floe_count, power.field.floe_size, power.field.size_distribution.max) == (None, None, 9)
+    assert power.field.asked_size == pytest.approx(power.field.size_distribution.floe_size)
+    assert build(Source("again", dump(power))) == power
+    assert load(PILE, ['field.size_distribution={kind = "lognormal"}']).field.floe_count == 200
 
 
 def test_overrides_reach_every_kind_of_key():
