@@ -131,7 +131,8 @@ def _scale(size: np.ndarray) -> dict:
 
 def _title(case: Case, count: int) -> str:
     floes = count - len(case.body)
-    parts = [f"{floes} floes"] if case.field.source == "voronoi" else []
+    origin = f" of {Path(case.field.file).name}" if case.field.source == "file" else ""
+    parts = [] if case.field.source == "bodies" else [f"{floes} floes{origin}"]
     if case.body:
         parts.append(f"{len(case.body)} {'body' if len(case.body) == 1 else 'bodies'}")
     return " and ".join(parts) + (f", seed {case.field.seed}" if case.field.source == "voronoi" else "")

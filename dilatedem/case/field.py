@@ -1,20 +1,24 @@
 """The field of a case file: how its floes come about."""
 
+import hashlib
+from pathlib import Path
 from typing import Annotated, Literal, Union
 
 from pydantic import Field, model_validator
 
-from dilatedem.field import distribution
-from dilatedem.keys import LARGEST_INTEGER, Fault, Positive, Table, complete, key
+from dilatedem.field import distribution, drawing
+from dilatedem.keys import LARGEST_INTEGER, Fault, File, NonNegative, Positive, Table, Vector2, complete, key
 
 AnyDistribution = Annotated[Union[distribution.DISTRIBUTIONS], Field(discriminator="kind")]  # noqa: UP007 (a union of a tuple)
 
 
 class IceField(Table):
-    """The floes at the start: cells that fill the domain, shrunk to the concentration asked for."""
+    """The floes at the start: cells that fill the domain, shrunk to the concentration asked for, or outlines of a file."""
 
-    source: Literal["voronoi", "bodies"] = key(
-        "voronoi", "", "`voronoi` generates floes; `bodies` takes the `[[body]]` entries and nothing else."
+    source: Literal["voronoi", "file", "bodies"] = key(
+        "voronoi",
+        "",
+        "`voronoi` generates floes; `file` takes the outlines of `file`; `bodies` takes the `[[body]]` entries and nothing else.",
     )
     floe_size: Positive | None = key(None, "m", "Square root of the mean floe area; 2.8 unless `floe_count` is given.")
     floe_count: Annotated[int, Field(ge=1)] | None = key(
@@ -43,10 +47,62 @@ class IceField(Table):
         "Where ice ends at open sides: `straight` cuts cells there; `ragged` leaves each cell whole whose middle is in the domain.",
     )
 
+    file: File | None = key(
+        None,
+        "",
+        "GeoJSON, WKT (a geometry a line) or CSV (columns `floe, x, y`, a row a point) file of outlines, in one plane; a relative "
+        "path starts at the folder of the case file. `thickness`, `density`, `elastic_modulus`, `poisson_ratio` and `velocity` of "
+        "an outline are taken where they are given.",
+    )
+    sha256: Annotated[str, Field(pattern=r"^[0-9a-f]{64}$")] | None = key(
+        None, "", "SHA-256 of the file. A run writes it to its case.toml, so that it is not repeated with another file unnoticed."
+    )
+    scale: Positive = key(1.0, "", "Metres per unit of the file.")
+    origin: Literal["centred"] | Vector2 = key(
+        (0.0, 0.0),
+        "m",
+        "Where the origin of the file's coordinates comes to; `centred`: the middle of all outlines comes to that of the domain.",
+        allowed='must be "centred" or a list of 2 numbers',
+    )
+    tolerance: NonNegative = key(
+        0.02, "m", "Distance from an outline of the file within which points of it are left out; those that stay do not move."
+    )
+    smallest: NonNegative = key(
+        0.0,
+        "m",
+        "Size, root of the plan area, below which outlines of the file are left out; those narrower than round edges always are.",
+    )
+
     def faults(self) -> list[Fault]:
         if self.floe_size is not None and self.floe_count is not None:
             return [(("floe_count",), "give either floe_size or floe_count, not both")]
-        return [*self._shape_faults(), *self._size_faults()]
+        return [*self._file_faults(), *self._shape_faults(), *self._size_faults()]
+
+    def _file_faults(self) -> list[Fault]:
+        if self.source != "file":
+            return [] if self.file is None else [(("file",), 'belongs to source = "file"')]
+        if self.file is None:
+            return [(("source",), "needs a file of outlines")]
+        if Path(self.file).suffix.lower() not in drawing.SUFFIXES:
+            return [(("file",), f"must be a GeoJSON, WKT or CSV file, by its name, too: {', '.join(drawing.SUFFIXES)}")]
+        try:
+            found = self._content()
+        except OSError as error:
+            return [(("file",), f"cannot be read: {error.strerror}")]
+        if self.sha256 not in (None, found):
+            return [(("file",), "is another than it was: its SHA-256 is not that of the key sha256; leave that key out to take it")]
+        return []
+
+    def _content(self) -> str:
+        """SHA-256 of the file."""
+        with Path(self.file).open("rb") as file:
+            return hashlib.file_digest(file, "sha256").hexdigest()
+
+    @model_validator(mode="after")
+    def _note_content(self):
+        if self.file is not None and self.sha256 is None:
+            complete(self, "sha256", self._content())
+        return self
 
     def _shape_faults(self) -> list[Fault]:
         """Keys that speak of random points."""
@@ -68,7 +124,7 @@ class IceField(Table):
     @model_validator(mode="after")
     def _default_size(self):
         implied = self.size_distribution and self.size_distribution.floe_size
-        if self.floe_size is None and self.floe_count is None and not implied:
+        if self.floe_size is None and self.floe_count is None and not implied and self.source != "file":
             complete(self, "floe_size", 2.8)
         return self
 

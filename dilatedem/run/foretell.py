@@ -6,7 +6,7 @@ from dilatedem.case.schema import Case
 from dilatedem.run.observers import expected_size
 from dilatedem.run.pace import total_steps
 from dilatedem.run.simulation import Simulation
-from dilatedem.scene.facts import distribution_facts, thickness_facts
+from dilatedem.scene.facts import distribution_facts, file_facts, thickness_facts
 from dilatedem.scene.room import memory
 
 
@@ -34,7 +34,7 @@ def check(case: Case) -> dict:
     }
     if len(areas):
         facts |= {"concentration": scene.field.concentration, "floe size, m": float(np.sqrt(areas.mean()))}
-        facts |= distribution_facts(case, scene) | thickness_facts(case, scene)
+        facts |= distribution_facts(case, scene) | file_facts(case, scene) | thickness_facts(case, scene)
     for structure in scene.structures:
         facts |= {f'structure "{structure.name}"': sentence for sentence in structure.about.remarks()}
     return facts | {"warnings": simulation.advice()}

@@ -63,6 +63,8 @@ def _simulate(simulation: Simulation, out: Path, lock: Lock, saved: dict | None,
     with Progress(case.time.duration, quiet) as progress:
         for sentence in [] if saved else simulation.advice():
             progress.message(f"warning: {sentence}")
+        for sentence in simulation.scene.report.sentences() if simulation.scene.report and not saved else []:
+            progress.message(f"{Path(case.field.file).name}: {sentence}")
         progress.message(_headline(simulation, steps, layer))
         compile_s = _compile(simulation, progress)
         with Interruption() as interruption, told_as(SimulationStopped, lambda error: _way_on(out, error)):

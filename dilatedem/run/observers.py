@@ -24,6 +24,7 @@ from dilatedem.output.summary import versions, write_summary
 from dilatedem.output.vtu import write_structures
 from dilatedem.run import error_check
 from dilatedem.run.error_check import LoadWatch
+from dilatedem.scene.facts import file_facts
 
 #: s of wall time after which, at the latest, new rows and snapshots are in the tables and in ice.pvd (or at the next thing due)
 REFRESH_S = 1.0
@@ -223,7 +224,7 @@ class RunFolder:
             "duration_s": case.time.duration, "wall_s": self._wall_s, "compile_s": self._compile_s,
             "steps_per_s": step / stepping_s if stepping_s > 0.0 else None, "threads": simulation.threads,
             "threads_at_work": simulation.crew.mean,
-        } | told | {
+        } | ({"field": file_facts(case, simulation.scene)} if simulation.scene.report else {}) | told | {
             "contact": {
                 "model": case.contact.model, "open": simulation.contacts,
                 "largest_overlap_m": float(simulation.state.loads.mode_overlap.max()),

@@ -16,9 +16,9 @@ QUANTILES = (0.1, 0.5, 0.9)
 def field_facts(case: Case, scene: Scene) -> dict:
     """What field.json says: counts, concentration, sizes (square roots of plan areas), thicknesses and seed."""
     domain_area = math.prod(case.domain.size)
-    generated = case.field.source == "voronoi"
+    generated, listed = case.field.source == "voronoi", case.field.source == "bodies"
     field = scene.field
-    areas = field.plan_area if generated else scene.plan_area
+    areas = scene.plan_area if listed else field.plan_area
     return {
         "source": case.field.source,
         "seed": case.field.seed if generated else None,
@@ -26,11 +26,12 @@ def field_facts(case: Case, scene: Scene) -> dict:
         "explicit_bodies": scene.explicit,
         "left_out_at_structures": field.left_out,
         "concentration_asked": case.field.concentration if generated else None,
-        "concentration": field.concentration if generated else float(areas.sum() / domain_area),
+        "concentration": float(areas.sum() / domain_area) if listed else field.concentration,
         "concentration_without_left_out": float(areas.sum() / domain_area),
         "floe_size_m": {"asked": case.field.asked_size if generated else None, **_sizes(areas)},
         **(_recipe(case) if generated else {}),
         **distribution_facts(case, scene),
+        **file_facts(case, scene),
         **thickness_facts(case, scene),
     }
 
@@ -64,6 +65,11 @@ def distribution_facts(case: Case, scene: Scene) -> dict:
         quantiles = np.sqrt(np.quantile(all_areas, QUANTILES))
         told[name] = asdict(moments) | {f"quantile_{q:g}": float(value) for q, value in zip(QUANTILES, quantiles, strict=True)}
     return {"size_distribution": told}
+
+
+def file_facts(case: Case, scene: Scene) -> dict:
+    """Of a field of outlines of a file: what was changed in them."""
+    return {} if scene.report is None else {"file": {"path": case.field.file, **scene.report.facts()}}
 
 
 def thickness_facts(case: Case, scene: Scene) -> dict:

@@ -8,13 +8,15 @@ from dataclasses import dataclass, fields
 import numpy as np
 
 from dilatedem.case.schema import Case
+from dilatedem.errors import CaseError
 from dilatedem.field.distribution import thicknesses
+from dilatedem.field.drawing import VELOCITY, read
 from dilatedem.field.obstacles import Obstacle
-from dilatedem.field.placement import FloeField, ice_field
+from dilatedem.field.placement import FloeField, dilated_areas, ice_field, touching_obstacles
+from dilatedem.field.survey import Report, Wishes, surveyed
 from dilatedem.geometry import outline as plan
 from dilatedem.scene.recipe import periodic_axes, ragged_axes, recipe_of, whole_axes
-from dilatedem.scene.room import generated_floes
-from dilatedem.structures.kind import Structure
+from dilatedem.scene.room import MOST_FACE_CORNERS, generated_floes
 
 #: of the two sequences of random numbers of a seed, that of thicknesses: with them or without, the field is the same in plan
 THICKNESS = 1
@@ -44,14 +46,29 @@ class IceProperties:
         return IceProperties(*(getattr(self, field.name)[wanted] for field in fields(self)))
 
 
-def floes_of(case: Case, structures: Sequence[Structure], bodies: Sequence[Obstacle]) -> tuple[FloeField, IceProperties]:
-    """The generated floes of a case, clear of structures and explicit bodies. Raises ValueError or CaseError if they cannot be."""
-    if case.field.source == "bodies":
-        nothing = np.zeros(0)
-        return FloeField(plan.Outlines.of([]), nothing, nothing, 1.0, 0.0, nothing.astype(bool)), IceProperties.of_case(case, 0)
+@dataclass(frozen=True, eq=False)
+class Floes:
+    """The generated floes of a case; of outlines of a file also what was changed in them."""
+
+    field: FloeField
+    ice: IceProperties
+    report: Report | None = None
+
+
+def floes_of(case: Case, bodies: Sequence[Obstacle]) -> Floes:
+    """The generated floes, clear of structures and explicit bodies. Raises ValueError or CaseError if they cannot be."""
+    return {"voronoi": _cut, "file": _drawn, "bodies": _none}[case.field.source](case, bodies)
+
+
+def _none(case: Case, bodies: Sequence[Obstacle]) -> Floes:
+    nothing = np.zeros(0)
+    return Floes(FloeField(plan.Outlines.of([]), nothing, nothing, 1.0, 0.0, nothing.astype(bool)), IceProperties.of_case(case, 0))
+
+
+def _cut(case: Case, bodies: Sequence[Obstacle]) -> Floes:
+    """Cells of the case's recipe, shrunk to its concentration."""
     count, recipe = generated_floes(case), recipe_of(case)
     ice = _varied(case, IceProperties.of_case(case, recipe.count(case.domain.size, count, whole_axes(case))))
-    thickest = float(ice.thickness.max())
     field = ice_field(
         case.domain.size,
         count,
@@ -59,11 +76,53 @@ def floes_of(case: Case, structures: Sequence[Structure], bodies: Sequence[Obsta
         periodic=periodic_axes(case),
         seed=case.field.seed,
         dilated_radius=case.ice.dilated_radius,
-        obstacles=[*(obstacle for structure in structures for obstacle in structure.obstacles(thickest)), *bodies],
+        obstacles=_obstacles(case, ice, bodies),
         recipe=recipe,
         ragged=ragged_axes(case),
     )
-    return field, ice.where(field.kept)
+    return Floes(field, ice.where(field.kept))
+
+
+def _drawn(case: Case, bodies: Sequence[Obstacle]) -> Floes:
+    """Outlines of the case's file."""
+    field, size, radius = case.field, np.array(case.domain.size), case.ice.dilated_radius
+    walls = [boundary == "wall" for boundary in (case.domain.x_boundary, case.domain.y_boundary)]
+    wishes = Wishes(field.scale, None if field.origin == "centred" else field.origin, field.tolerance, field.smallest)
+    try:
+        outlines, told, report = surveyed(read(field.file), wishes, size, periodic_axes(case), walls, radius)
+    except ValueError as fault:
+        raise CaseError(f"field.file: {field.file} {fault}") from fault
+    if (most := int(outlines.sides.max(initial=0))) > MOST_FACE_CORNERS:
+        raise CaseError(
+            f"field.tolerance = {field.tolerance:g}: leaves an outline with {most} corners, and at most {MOST_FACE_CORNERS} can be "
+            "handled; take a larger one"
+        )
+    ice = _told(_varied(case, IceProperties.of_case(case, len(outlines))), told, 2.0 * radius)
+    areas, _ = dilated_areas(outlines.by_sides(), len(outlines), 1.0, radius)
+    kept = ~touching_obstacles(outlines, _obstacles(case, ice, bodies), size, periodic_axes(case))
+    made = FloeField(outlines.where(kept), areas[kept], areas, 1.0, float(areas.sum() / np.prod(size)), kept)
+    return Floes(made, ice.where(kept), report)
+
+
+def _obstacles(case: Case, ice: IceProperties, bodies: Sequence[Obstacle]) -> list[Obstacle]:
+    """What no floe may touch at the start."""
+    thickest = float(ice.thickness.max(initial=case.ice.thickness if not len(ice.thickness) else 0.0))
+    return [*(obstacle for structure in case.structure for obstacle in structure.obstacles(thickest)), *bodies]
+
+
+def _told(ice: IceProperties, told: Sequence[dict], least: float) -> IceProperties:
+    """The same with what a file says of floes (n,) by themselves. Raises CaseError for one thinner than `least` [m]."""
+    values = {field.name: getattr(ice, field.name).copy() for field in fields(ice)}
+    for floe, properties in enumerate(told):
+        for name, value in properties.items():
+            values[name][floe] = (*value, 0.0) if name == VELOCITY else value
+    thin = values["thickness"] <= least
+    if thin.any() and len(set(values["thickness"])) > 1:
+        raise CaseError(
+            f"field.file: {int(thin.sum())} of {len(thin)} floes are no thicker than twice the dilated radius, {least:g} m, the "
+            f"thinnest {values['thickness'].min():.3g} m: take a smaller ice.dilated_radius, or leave them out"
+        )
+    return IceProperties(**values)
 
 
 def _varied(case: Case, ice: IceProperties) -> IceProperties:

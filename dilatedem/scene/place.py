@@ -14,22 +14,20 @@ from dilatedem.case.schema import Case
 from dilatedem.errors import CaseError
 from dilatedem.field.obstacles import Region
 from dilatedem.field.placement import FloeField, equilibrium_height
+from dilatedem.field.survey import Report
 from dilatedem.geometry import outline as plan
 from dilatedem.geometry.floes import floe_shapes
 from dilatedem.geometry.polyhedron import convex_hull, prism
 from dilatedem.geometry.shapes import BodyShape
 from dilatedem.numerics.frames import matrix_from_quaternion, quaternion_from_rotation_vector
 from dilatedem.numerics.plain import turned
-from dilatedem.scene.ice import IceProperties, floes_of
+from dilatedem.scene.ice import Floes, IceProperties, floes_of
 from dilatedem.scene.records import Record, records_of
-from dilatedem.state.storage import MOST_CORNERS
+from dilatedem.scene.room import MOST_FACE_CORNERS
 from dilatedem.structures.held import HeldBody
 from dilatedem.structures.kind import Chart, Part, Structure, member_name
 from dilatedem.structures.plane import Plane
 from dilatedem.structures.support import Support
-
-#: corners of a face after clipping by another: both counts together have to fit into the workspace
-MOST_FACE_CORNERS = MOST_CORNERS // 2 - 1
 
 #: of an outline's size, where the search for a tolerance that thins it enough begins
 FIRST_TOLERANCE = 1e-5
@@ -94,6 +92,7 @@ class Scene:
     records: list[Record]  # rows of the record of loads: the structures, and sums over them
     field: FloeField
     ice: IceProperties  # of the generated floes
+    report: Report | None  # what was changed in outlines of a file
 
     @property
     def count(self) -> int:
@@ -140,17 +139,15 @@ def compose(case: Case) -> Scene:
     explicit = [_explicit_body(case, number, body) for number, body in enumerate(case.body)]
     structures = _structures(case)
     try:
-        field, ice = floes_of(case, case.structure, [Region(body.core_outline, body.shape.radius) for body in explicit])
-        return _scene(case, explicit, field, ice, structures)
+        generated = floes_of(case, [Region(body.core_outline, body.shape.radius) for body in explicit])
+        return _scene(case, explicit, generated, structures)
     except ValueError as fault:
         raise CaseError(f"the ice field cannot be built: {fault}") from fault
 
 
-def _scene(
-    case: Case, explicit: list[PlacedBody], field: FloeField, ice: IceProperties, structures: list[PlacedStructure]
-) -> Scene:
+def _scene(case: Case, explicit: list[PlacedBody], generated: Floes, structures: list[PlacedStructure]) -> Scene:
     """Explicit bodies and floes in one numbering. Raises ValueError for a floe that has no shape or does not float."""
-    first = len(explicit)
+    first, field, ice = len(explicit), generated.field, generated.ice
     position, orientation = np.zeros((first + len(field.outlines), 3)), np.zeros((first + len(field.outlines), 4))
     orientation[:] = quaternion_from_rotation_vector(np.zeros(3))
     for number, body in enumerate(explicit):
@@ -175,6 +172,7 @@ def _scene(
         records=records_of(case, structures),
         field=field,
         ice=ice,
+        report=generated.report,
     )
 
 

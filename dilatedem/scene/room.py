@@ -7,7 +7,10 @@ from pathlib import Path
 from dilatedem.case.schema import Case
 from dilatedem.errors import CaseError
 from dilatedem.field.sizes import floe_count
+from dilatedem.state.storage import MOST_CORNERS
 
+#: corners of a face after clipping by another: both counts together have to fit into the workspace
+MOST_FACE_CORNERS = MOST_CORNERS // 2 - 1
 #: bytes that a floe takes up in a run, about: its shape, its neighbours, what waits to be written; half of it while it is checked
 BYTES_PER_FLOE = 10_000
 #: bytes that the program takes up by itself, about
