@@ -1,0 +1,107 @@
+"""Ice without an end: strips that fit each other, whichever is asked for first, with the statistics of a field that ends."""
+
+import numpy as np
+import pytest
+import shapely
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from dilatedem.field.stream import Course, Stream
+from dilatedem.geometry import outline as plan
+
+PERIODIC = Course((30.0, 20.0), 0, -1, True)
+COURSES = [PERIODIC, Course((30.0, 20.0), 0, 1, False), Course((20.0, 30.0), 1, 1, True), Course((20.0, 30.0), 1, -1, False)]
+
+
+def stream(course: Course = PERIODIC, seed: int = 1, radius: float = 0.04) -> Stream:
+    return Stream(course, 80, 0.7, seed=seed, radius=radius)
+
+
+def ground(some: Stream, numbers: range) -> np.ndarray:
+    """The cells of strips, in the frame of the domain."""
+    cells = []
+    for number in numbers:
+        place = some.course.along((number + 0.5) * some.width - 0.5 * some.course.length)
+        cells += [shapely.Polygon(cell + place) for cell in some._recipe.cells(number)]
+    return np.array(cells)
+
+
+def covered(course: Course, cells: np.ndarray, band: shapely.Polygon) -> float:
+    """Area of a band [m2] that cells and their periodic images cover, each time it is covered."""
+    shifts = [np.zeros(2)]
+    if course.across:
+        period = np.where(np.arange(2) == course.axis, 0.0, course.size)
+        shifts += [period, -period]
+    return sum(
+        float(shapely.area(shapely.intersection(shapely.transform(cells, lambda xy, by=shift: xy + by), band)).sum())
+        for shift in shifts
+    )
+
+
+@pytest.mark.parametrize("course", COURSES)
+def test_cells_of_all_strips_tile_the_plane_without_a_seam(course):
+    cells = ground(stream(course), range(2, 12))
+    width = stream(course).width
+    corners = np.array([-0.5 * np.array(course.size), 0.5 * np.array(course.size)])
+    ends = [course.upstream * (way - 0.5 * course.length) for way in (4.0 * width, 10.0 * width)]
+    corners[:, course.axis] = min(ends), max(ends)
+    band = shapely.box(*corners.ravel())
+    assert covered(course, cells, band) == pytest.approx(band.area, rel=1e-9)
+    assert shapely.union_all(cells).area == pytest.approx(shapely.area(cells).sum(), rel=1e-9), "no cell lies in another"
+
+
+@given(st.lists(st.integers(-20, 60), min_size=1, max_size=6), st.integers(0, 2**62))
+@settings(max_examples=20, deadline=None)
+def test_a_strip_is_a_function_of_seed_and_number_alone(asked, seed):
+    one, other = stream(seed=seed), stream(seed=seed)
+    for number in asked:
+        one.strip(number)
+    found, again = one.strip(asked[0]), other.strip(asked[0])
+    np.testing.assert_array_equal(found.outlines.points, again.outlines.points)
+    np.testing.assert_array_equal(found.which, again.which)
+
+
+def test_no_ice_comes_twice_and_every_cell_has_one_number():
+    some = stream()
+    strips = [some.strip(number) for number in range(30)]
+    areas = np.concatenate([strip.plan_area for strip in strips])
+    assert len(np.unique(areas)) == len(areas)
+    which = np.concatenate([strip.which for strip in strips])
+    np.testing.assert_array_equal(which, np.arange(len(which)))
+    assert all(some.strip_of(cell) == number for number, strip in enumerate(strips) for cell in strip.which)
+
+
+def test_floes_are_apart_and_have_the_concentration():
+    some = stream()
+    floes = some.floes(range(40))
+    outlines = np.array([shapely.Polygon(outline) for outline in floes.outlines])
+    first, second = shapely.STRtree(outlines).query(outlines, predicate="dwithin", distance=1e-3)
+    assert np.array_equal(first, second), "each is near itself alone"
+    asked = 0.7 * shapely.area(ground(some, range(40))).sum()
+    assert floes.plan_area.sum() == pytest.approx(asked, rel=1e-4)
+    assert some.concentration == pytest.approx(0.7, rel=1e-12)
+
+
+def test_cells_have_the_areas_of_a_poisson_voronoi_tessellation():
+    """Their variance is 0.2802 of the square of the mean (Gilbert 1962); a Voronoi of fixed numbers in a box has a little less."""
+    some = Stream(Course((60.0, 60.0), 0, -1, True), 400, 0.7, seed=3, radius=0.04)
+    areas = np.concatenate([plan.area(corners) for number in range(60) for _, corners in some._recipe.cells(number).by_sides()])
+    mean = 9.0
+    assert len(areas) > 3000 and areas.mean() == pytest.approx(mean, rel=0.02)
+    assert areas.var() / mean**2 == pytest.approx(0.2802, abs=0.02)
+
+
+def test_narrow_cells_are_open_water_and_keep_their_numbers():
+    some = stream(radius=0.35)
+    strips = [some.strip(number) for number in range(30)]
+    assert sum(strip.narrow for strip in strips) > 0
+    for number, strip in enumerate(strips):
+        assert len(strip.outlines) + strip.narrow == some.first(number + 1) - some.first(number)
+
+
+def test_what_is_there_at_the_start_reaches_as_far_as_asked():
+    some = stream()
+    numbers = some.until(33.0)
+    assert some.begins(numbers.stop) > 33.0 >= some.begins(numbers.stop - 1)
+    ahead = [PERIODIC.ahead(some.strip(number).outlines.points).max() for number in (numbers.start - 1, numbers.start)]
+    assert ahead[0] <= 0.0 < ahead[1]
