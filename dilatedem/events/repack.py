@@ -5,7 +5,7 @@ Bodies keep their ids; contacts of bodies that stay keep their memory, and the l
 
 import numpy as np
 
-from dilatedem.geometry.packing import selected
+from dilatedem.geometry.packing import selected, together
 from dilatedem.state.bodies import Bodies, Ids, Solids
 from dilatedem.state.model import Model
 from dilatedem.state.pairs import PackedPairs, Pairs, in_use, unpacked
@@ -20,8 +20,9 @@ def without(simulation, gone: np.ndarray) -> None:
     before = float(state.ledger.instant.sum())
     state.ledger.departed_work[:] += state.bodies.work[: model.floating][gone].sum(axis=0)
     stay = np.concatenate([np.flatnonzero(~gone), np.arange(model.floating, len(model.structure_of))])
-    reduced = _model(model, stay)
-    state.pairs = _pairs(state.pairs, model, reduced, stay)
+    reduced, place = of_rows(model, stay), np.full(len(model.structure_of), -1)
+    place[stay] = np.arange(len(stay))
+    state.pairs = _pairs(state.pairs, model, reduced, place)
     state.bodies = Bodies(*(rows[stay] for rows in state.bodies))
     state.ids = Ids(state.ids.body[~gone])
     simulation.adopt(reduced)
@@ -29,7 +30,29 @@ def without(simulation, gone: np.ndarray) -> None:
     state.ledger.carried_out[0] += before - float(state.ledger.instant.sum())
 
 
-def _model(model: Model, rows: np.ndarray) -> Model:
+def joined(simulation, came: Model, bodies: Bodies, ids: np.ndarray) -> float:
+    """Put the floating bodies of another model into a simulation, behind those there are; its loads are evaluated anew.
+
+    came: built for the same structures; bodies: of all its rows; ids (came.floating,): numbers that no other body has. They touch
+    nothing. Returns the energy that they bring [J].
+    """
+    model, state = simulation.model, simulation.state
+    before = float(state.ledger.instant.sum())
+    count, first = len(model.structure_of), model.floating  # of the bodies that were there, and of the first structure's
+    rows = np.concatenate([np.arange(first), count + np.arange(came.floating), np.arange(first, count)])
+    enlarged, place = _together(model, came, rows), np.arange(count)
+    place[first:] += came.floating
+    state.pairs = _pairs(state.pairs, model, enlarged, place)
+    state.pairs.limit[0] = 0.0  # those that came are not in the list: the next step makes it anew
+    state.bodies = Bodies(*(np.concatenate(both)[rows] for both in zip(state.bodies, bodies, strict=True)))
+    state.ids = Ids(np.concatenate([state.ids.body, ids]))
+    simulation.adopt(enlarged)
+    simulation.evaluate()
+    return float(state.ledger.instant.sum()) - before
+
+
+def of_rows(model: Model, rows: np.ndarray) -> Model:
+    """The model of some of its bodies alone, in this order; those that float come first."""
     floating = int(np.count_nonzero(rows < model.floating))
     return model._replace(
         floating=floating,
@@ -40,10 +63,22 @@ def _model(model: Model, rows: np.ndarray) -> Model:
     )
 
 
-def _pairs(pairs: Pairs, old: Model, new: Model, rows: np.ndarray) -> Pairs:
-    """The pairs of bodies that are both there, their bodies and the corners they remember by their new numbers."""
-    place = np.full(len(old.structure_of), -1)
-    place[rows] = np.arange(len(rows))
+def _together(model: Model, came: Model, rows: np.ndarray) -> Model:
+    """One model of the bodies of two; rows: what stands where, when those of the second are counted behind those of the first."""
+    return model._replace(
+        floating=model.floating + came.floating,
+        structure_of=np.concatenate([model.structure_of, came.structure_of])[rows],
+        shapes=selected(together(model.shapes, came.shapes), rows),
+        hulls=together(model.hulls, came.hulls),
+        solids=Solids(*(np.concatenate(both)[rows] for both in zip(model.solids, came.solids, strict=True))),
+    )
+
+
+def _pairs(pairs: Pairs, old: Model, new: Model, place: np.ndarray) -> Pairs:
+    """The pairs of bodies that are both there, their bodies and the corners they remember by their new numbers.
+
+    place (n,): the new number of each old body, -1 where it is gone.
+    """
     listed = in_use(pairs)
     a, b = place[listed.a], place[listed.b]
     both = (a >= 0) & (b >= 0)
@@ -52,7 +87,7 @@ def _pairs(pairs: Pairs, old: Model, new: Model, rows: np.ndarray) -> Pairs:
     )
     left = unpacked(PackedPairs(*kept), len(pairs.a))
     count = int(left.count[0])
-    shift = new.shapes.vertex_start[:-1] - old.shapes.vertex_start[rows]  # of a body's vertices
-    left.corner_a[:count] += shift[left.a[:count], None]
-    left.corner_b[:count] += shift[left.b[:count], None]
+    shift = new.shapes.vertex_start[place] - old.shapes.vertex_start[:-1]  # of a body's vertices
+    left.corner_a[:count] += shift[listed.a[both], None]
+    left.corner_b[:count] += shift[listed.b[both], None]
     return left

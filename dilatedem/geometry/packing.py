@@ -75,22 +75,42 @@ def selected(packed, bodies: np.ndarray):
 
     packed: a `PackedPolyhedra`, `shapes.Shapes` or `shapes.Hulls`; the same kind is returned.
     """
-    vertices, vertex_start = _entries(packed.vertex_start, bodies)
-    faces, face_start = _entries(packed.face_start, bodies)
-    loops, loop_start = _entries(packed.loop_start, faces)
+    vertices, vertex_start = entries(packed.vertex_start, bodies)
+    faces, face_start = entries(packed.face_start, bodies)
+    loops, loop_start = entries(packed.loop_start, faces)
     moved = vertex_start[:-1] - packed.vertex_start[bodies]  # of a body's vertices
     rows = {"vertex": vertices, "face_normal": faces}
     made = {"vertex_start": vertex_start, "face_start": face_start, "loop_start": loop_start}
     made["loop"] = packed.loop[loops] + np.repeat(moved, np.diff(loop_start[face_start]))
     if hasattr(packed, "neighbour_start"):
-        neighbours, made["neighbour_start"] = _entries(packed.neighbour_start, vertices)
+        neighbours, made["neighbour_start"] = entries(packed.neighbour_start, vertices)
         made["neighbour"] = packed.neighbour[neighbours] + np.repeat(moved, np.diff(made["neighbour_start"][vertex_start]))
     for name, array in packed._asdict().items():
         made[name] = made[name].astype(array.dtype) if name in made else array[rows.get(name, bodies)]
     return type(packed)(**made)
 
 
-def _entries(start: np.ndarray, rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def together(first, second):
+    """Packed arrays with the bodies of two others, those of the first before those of the second; the same kind is returned.
+
+    first, second: two `PackedPolyhedra`, `shapes.Shapes` or `shapes.Hulls`.
+    """
+    starts = {"vertex_start": first.vertex, "face_start": first.loop_start[1:], "loop_start": first.loop}
+    numbers = {"loop": len(first.vertex)}
+    if hasattr(first, "neighbour_start"):
+        starts["neighbour_start"], numbers["neighbour"] = first.neighbour, len(first.vertex)
+    made = {}
+    for name, values in first._asdict().items():
+        others = getattr(second, name)
+        if name in starts:
+            others = others[1:] + len(starts[name])
+        elif name in numbers:
+            others = others + numbers[name]
+        made[name] = np.concatenate([values, others]).astype(values.dtype)
+    return type(first)(**made)
+
+
+def entries(start: np.ndarray, rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Which entries of a flat array belong to some of its rows, and where those rows begin when only they are left."""
     counts = (start[1:] - start[:-1])[rows]
     begin = offsets(counts)

@@ -5,8 +5,9 @@ from pathlib import Path
 import numpy as np
 
 from dilatedem.case.load import load
-from dilatedem.events.repack import without
+from dilatedem.events.repack import joined, of_rows, without
 from dilatedem.run.simulation import Simulation
+from dilatedem.state.bodies import Bodies
 from dilatedem.state.clock import Status
 from dilatedem.state.pairs import in_use
 
@@ -84,3 +85,41 @@ def test_all_may_go():
     without(simulation, np.ones(simulation.model.floating, np.bool_))
     assert simulation.model.floating == 0 and simulation.contacts == 0
     assert simulation.advance(100) == Status.DONE
+
+
+def test_who_was_there_keeps_its_contacts_when_others_come_and_the_list_has_them():
+    simulation, far = in_contact(), 200.0
+    other = Simulation.of_case(load(CROWDED))
+    touching, floating, start = partners(simulation), simulation.model.floating, balance(simulation)
+    rows = np.concatenate([[2, 5, 6], np.arange(floating, len(other.model.structure_of))])
+    bodies = Bodies(*(values[rows] for values in other.state.bodies))
+    bodies.position[:3, 0] -= far
+    brought = joined(simulation, of_rows(other.model, rows), bodies, np.array([90, 91, 95]))
+    model, state = simulation.model, simulation.state
+    assert model.floating == floating + 3 and list(state.ids.body[-3:]) == [90, 91, 95]
+    came, there = other.state.bodies.position[[2, 5, 6]] - [far, 0.0, 0.0], state.bodies.position[floating : floating + 3]
+    np.testing.assert_array_equal(there, came)
+    now = partners(simulation)
+    assert now.keys() == touching.keys()
+    for name, (mode, overlap, slip, *corners) in touching.items():
+        assert now[name][0] == mode and now[name][1] == overlap
+        np.testing.assert_allclose(now[name][2], slip, rtol=1e-12, atol=1e-18)
+        for found, expected in zip(now[name][3:], corners, strict=True):
+            np.testing.assert_array_equal(found, expected)
+    kinetic = 0.5 * other.model.solids.mass[[2, 5, 6]] @ (np.hypot(0.8, 0.15) ** 2 * np.ones(3))
+    assert brought > kinetic and abs(balance(simulation) - start - brought) < 1e-9 * brought
+    own = simulation.floes.outline[floating]
+    np.testing.assert_allclose(own + [far, 0.0], other.floes.outline[2], atol=1e-9)
+    assert simulation.advance(500) == Status.DONE
+    assert abs(balance(simulation) - start - brought) < 1e-4 * brought
+
+
+def test_bodies_that_came_and_went_leave_the_same_model():
+    simulation, other = in_contact(), Simulation.of_case(load(CROWDED))
+    model, floating = simulation.model, simulation.model.floating
+    joined(simulation, other.model, other.state.bodies, 100 + np.arange(floating))
+    without(simulation, np.arange(2 * floating) >= floating)
+    for name in ("shapes", "hulls", "solids"):
+        for values, expected in zip(getattr(simulation.model, name), getattr(model, name), strict=True):
+            np.testing.assert_array_equal(values, expected)
+            assert np.asarray(values).dtype == np.asarray(expected).dtype
