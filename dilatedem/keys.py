@@ -86,7 +86,7 @@ Size2 = Annotated[tuple[Positive, Positive], _as_tuple(2)]
 # Path of a file; once the case is read, in full.
 File = Annotated[str, AfterValidator(_beside_case)]
 Stiffness2 = Annotated[tuple[NonNegative, NonNegative], _as_tuple(2)]
-Boundary = Literal["open", "periodic", "wall", "outflow"]
+Boundary = Literal["open", "periodic", "wall", "outflow", "inflow"]
 # A name serves as an HDF5 group, a CSV field and a step of a dotted key: no / or comma or dot, and no number.
 # \w is a letter or digit of any alphabet, [^\W\d] the same without the digits.
 Name = Annotated[str, Field(pattern=r"^[^\W\d][\w-]*$")]

@@ -9,17 +9,16 @@ from typing import Annotated, Any, Literal, Union
 from pydantic import Field, model_validator
 
 from dilatedem.case.bodies import Body
+from dilatedem.case.domain import Domain, inflow_faults
 from dilatedem.case.field import IceField
 from dilatedem.case.names import name_faults
 from dilatedem.field import distribution
 from dilatedem.keys import (
-    Boundary,
     Fault,
     Friction,
     NonNegative,
     PoissonRatio,
     Positive,
-    Size2,
     Table,
     TomlJsonSchema,
     Vector2,
@@ -35,26 +34,6 @@ def _dilation_faults(radius: float, thickness: float) -> list[Fault]:
     if 2 * radius > thickness:
         return [(("dilated_radius",), f"must be at most half the thickness, {thickness / 2:g} m")]
     return []
-
-
-class Domain(Table):
-    """The rectangle of sea, centred on the origin. The still water level is z = 0, z points up."""
-
-    size: Size2 = key((50.0, 50.0), "m", "Extent along x (the usual direction of the current) and along y.")
-    x_boundary: Boundary = key(
-        "open", "",
-        "The two sides at x = -size/2 and +size/2. Through `open` and `outflow` ice leaves: `open` goes on following it, "
-        "`outflow` drops what has left as a whole.",
-    )
-    y_boundary: Boundary = key("open", "", "The two sides at y = -size/2 and +size/2.")
-    wall_friction: Friction | None = key(
-        None, "", "Coefficient of friction with sides that are a `wall`, such as those of a tank; `contact.friction` unless given."
-    )
-
-    def faults(self) -> list[Fault]:
-        if self.wall_friction is not None and "wall" not in (self.x_boundary, self.y_boundary):
-            return [(("wall_friction",), 'needs a side that is a wall: x_boundary = "wall" or y_boundary = "wall"')]
-        return []
 
 
 class Ice(Table):
@@ -225,7 +204,16 @@ class Case(Table):
 
     def faults(self) -> list[Fault]:
         found = [*name_faults(self.structure, self.body), *self._body_faults(), *self._track_faults(), *self._check_faults()]
+        drift = "water.velocity" if self.ice.initial_velocity == "current" else "ice.initial_velocity"
+        found += inflow_faults(self.domain, self.field, self.ice.thickness_spread, self.ice_velocity, drift)
         return [*found, *self._front_faults()]
+
+    @property
+    def ice_velocity(self) -> tuple[float, float, float]:
+        """Velocity [m/s] of generated floes at the start, and where they enter."""
+        if self.ice.initial_velocity != "current":
+            return self.ice.initial_velocity
+        return (*self.water.velocity, 0.0) if self.water.enabled else (0.0, 0.0, 0.0)
 
     @model_validator(mode="after")
     def _fill_bodies(self):
@@ -261,8 +249,9 @@ class Case(Table):
         return found
 
     def _check_faults(self) -> list[Fault]:
-        if self.time.error_check and "outflow" in (self.domain.x_boundary, self.domain.y_boundary):
-            text = "must be false where a boundary is \"outflow\": bodies that have left cannot be replayed; take \"open\""
+        leaving = [kind for kind in ("outflow", "inflow") if kind in self.domain.boundaries]
+        if self.time.error_check and leaving:
+            text = f'must be false where a boundary is "{leaving[0]}": bodies that have left cannot be replayed; take "open"'
             return [(("time", "error_check"), text)]
         return []
 

@@ -19,3 +19,11 @@ class Event(ABC):
     @abstractmethod
     def happen(self, simulation) -> bool:
         """At a step that is due; returns whether bodies have come or gone."""
+
+    def summary(self, simulation) -> dict:
+        """What it has to say in summary.json at this moment."""
+        return {}
+
+    def remark(self, simulation) -> str:
+        """What the user is to be told of it where a run ends, in a sentence; empty: nothing."""
+        return ""

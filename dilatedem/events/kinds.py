@@ -1,9 +1,10 @@
 """The events there are. A new one is a file beside this one, and its class in this list."""
 
 from dilatedem.events.event import Event
+from dilatedem.events.inflow import Inflow
 from dilatedem.events.outflow import Outflow
 
-EVENTS: tuple[type[Event], ...] = (Outflow,)
+EVENTS: tuple[type[Event], ...] = (Outflow, Inflow)
 
 
 def events_of(simulation) -> list[Event]:

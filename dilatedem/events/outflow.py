@@ -4,6 +4,7 @@ import numpy as np
 
 from dilatedem.events.event import Event
 from dilatedem.events.repack import without
+from dilatedem.scene.inflow import course_of
 
 #: s between two looks for bodies that have left
 INTERVAL = 1.0
@@ -14,16 +15,24 @@ class Outflow(Event):
 
     @classmethod
     def interval(cls, case) -> float:
-        return INTERVAL if "outflow" in (case.domain.x_boundary, case.domain.y_boundary) else 0.0
+        return INTERVAL if "outflow" in case.domain.boundaries and case.domain.inflow is None else 0.0
 
     def happen(self, simulation) -> bool:
-        """Drop all free bodies that lie beyond a side as a whole."""
-        domain, model = simulation.case.domain, simulation.model
-        boundaries = np.array([domain.x_boundary, domain.y_boundary])
-        half = np.where(boundaries == "outflow", 0.5 * np.array(domain.size), np.inf)
-        count = model.floating
-        beyond = np.abs(simulation.state.bodies.position[:count, :2]) - half > model.shapes.reach[:count, None]
-        gone = beyond.any(axis=1) & (model.solids.inverse_mass[:count] > 0.0)
-        if gone.any():
-            without(simulation, gone)
-        return bool(gone.any())
+        return leave(simulation) > 0
+
+
+def leave(simulation) -> int:
+    """Drop all free bodies that lie beyond a side as a whole which ice leaves through; returns how many."""
+    case, model = simulation.case, simulation.model
+    count, sides = model.floating, np.full((2, 2), np.inf)  # m from the middle, along x and y, low and high
+    for axis, boundary in enumerate(case.domain.boundaries):
+        if boundary in ("outflow", "inflow"):
+            sides[axis] = 0.5 * case.domain.size[axis]
+        if boundary == "inflow":
+            sides[axis, int(course_of(case).upstream > 0)] = np.inf
+    position, reach = simulation.state.bodies.position[:count, :2], model.shapes.reach[:count, None]
+    beyond = (-position - sides[:, 0] > reach) | (position - sides[:, 1] > reach)
+    gone = beyond.any(axis=1) & (model.solids.inverse_mass[:count] > 0.0)
+    if gone.any():
+        without(simulation, gone)
+    return int(np.count_nonzero(gone))

@@ -28,16 +28,16 @@ STEEPEST = 1.5
 AT_ONCE = 4096
 
 
-def critical_step(model, bodies) -> float:
+def critical_step(model, bodies, only=None) -> float:
     """Time step [s] to stay well below, estimated for one face and one corner contact of every body; docs/theory.md has its limits.
 
     A pair's 1/m_eff is the sum over both bodies, so omega^2 = k/m_eff is at most twice the largest k/m' of one body, with
     1/m' = 1/m + (r x n).I^-1.(r x n) at the worst corner; damping shortens the step by sqrt(1 + xi^2) - xi, xi the damping
     coefficient. Friction springs, crossing edges and contacts that act together are left to the share of it that is taken.
-    Infinite where nothing can move.
+    Infinite where nothing can move. only: numbers of the bodies that count, all unless given.
     """
     shapes, solids, damping, law = model.shapes, model.solids, model.contact.damping, law_of(model.contact)
-    free = np.flatnonzero(solids.inverse_mass > 0.0)
+    free = np.flatnonzero(solids.inverse_mass > 0.0) if only is None else only
     if len(free) == 0:
         return _swinging(model.supports)
     held = np.flatnonzero(solids.inverse_mass == 0.0)  # structures and fixed bodies

@@ -119,6 +119,21 @@ class FloeTable:
     vertices: np.ndarray
     outlines: Sequence[np.ndarray]
 
+    def rows(self, which: np.ndarray) -> "FloeTable":
+        """The bodies in the rows `which` (m,)."""
+        return FloeTable(**{
+            name: [values[i] for i in which] if name == "outlines" else values[which] for name, values in vars(self).items()
+        })
+
+    @classmethod
+    def of(cls, tables: "Sequence[FloeTable]") -> "FloeTable":
+        """Several tables, one after the other."""
+        columns = {name: [getattr(table, name) for table in tables] for name in vars(tables[0])}
+        return cls(**{
+            name: [outline for some in parts for outline in some] if name == "outlines" else np.concatenate(parts)
+            for name, parts in columns.items()
+        })
+
 
 class RunArchive:
     """run.h5 in memory, to be brought up to date and written again and again.

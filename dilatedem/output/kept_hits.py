@@ -30,6 +30,8 @@ from dilatedem.state.hits import (
 
 #: dimensions behind the first, which counts the events: their names
 FORCE, FLOE, CONTACT, PAIR, AXIS = "sample", "place", "contact", "side", "xyz"
+#: orientation of a floe that lies as it was made
+UPRIGHT = np.array([1.0, 0.0, 0.0, 0.0])
 #: datasets: units, meaning, dimensions behind the first
 DATASETS: dict[str, tuple[str, str, tuple[str, ...]]] = {
     "structure": ("1", "number of the structure, in the attribute structures of the group; -1: no event", ()),
@@ -98,7 +100,8 @@ def _turned(floe: np.ndarray, orientation: np.ndarray, count: int, initial: np.n
     """Angles [rad] about z by which the first `count` floes are turned since t = 0; 0 for the others."""
     found = [0.0] * len(floe)
     for k in range(count):
-        before, now = matrix_from_quaternion(initial[floe[k]]), matrix_from_quaternion(orientation[k])
+        start = initial[floe[k]] if floe[k] < len(initial) else UPRIGHT  # as ice enters
+        before, now = matrix_from_quaternion(start), matrix_from_quaternion(orientation[k])
         # of the matrix now before^T, entries (1, 0) and (0, 0): plain sums, that round alike everywhere
         sine, cosine = (sum(now[row, m] * before[0, m] for m in range(3)) for row in (1, 0))
         found[k] = math.atan2(sine, cosine)

@@ -16,8 +16,20 @@ from dilatedem.structures.kind import Sketch
 GOES_WITH = "; the map goes with the structure, of which this is said at t = 0"
 
 
+def floe_table(scene, ids: np.ndarray | None = None) -> FloeTable:
+    """All bodies of a `scene.place.Scene`; ids (n,): their numbers, from 0 on unless given."""
+    return FloeTable(
+        body=np.arange(scene.count) if ids is None else ids, x0=scene.position[:, 0], y0=scene.position[:, 1],
+        plan_area=scene.plan_area, mass=scene.mass(), volume=scene.volume(), vertices=scene.core_vertices(),
+        outlines=scene.outlines,
+    )  # fmt: skip
+
+
 class Record(Observer):
-    """Written whenever the state is saved: it is small."""
+    """Written whenever the state is saved: it is small.
+
+    Its table of floes is that of the start; where ice enters, it holds the floes that are there, and those that load events name.
+    """
 
     name = "record"
     _archive: RunArchive | None = None  # until it is written first
@@ -25,18 +37,25 @@ class Record(Observer):
     def save(self) -> None:
         simulation = self.simulation
         hits = kept_hits(simulation.state.hits, simulation.dt, simulation.scene.orientation)
-        self.background.put(self._write, self._load_maps(), self._contact_statistics(), hits)
+        floes = self._floes_there(hits) if simulation.entering else None
+        self.background.put(self._write, self._load_maps(), self._contact_statistics(), hits, floes)
 
-    def _write(self, maps: list[LoadMap], statistics: dict[str, ContactStatistics], hits: dict[str, np.ndarray]) -> None:
-        """In the background, as laying it out takes a while, too."""
+    def _write(
+        self, maps: list[LoadMap], statistics: dict[str, ContactStatistics], hits: dict[str, np.ndarray], floes: FloeTable | None
+    ) -> None:
+        """In the background, as laying it out takes a while, too; floes: None for those of the start."""
+        if self._archive and floes:
+            self._archive.close()
+            self._archive = None
         if self._archive:
             self._archive.update(maps, statistics, hits)
         else:
             case = self.simulation.case
             about = {"title": case.title, "seed": case.field.seed, "current_velocity_m_s": self._current()}
             about |= {"energy_terms": [term.name for term in TERMS], "energy_labels": [term.label for term in TERMS]}
+            floes = floes or floe_table(self.simulation.scene)
             self._archive = RunArchive(
-                maps, statistics, self._floe_table(), outlines=self._outlines(), about=about, hits=hits, dt=self.simulation.dt
+                maps, statistics, floes, outlines=self._outlines(), about=about, hits=hits, dt=self.simulation.dt
             )
         self._archive.write(self.out / folder.RUN_ARCHIVE)
 
@@ -74,12 +93,18 @@ class Record(Observer):
             for p, partners in enumerate(("ice_ice", "ice_structure"))
         }
 
-    def _floe_table(self) -> FloeTable:
-        scene = self.simulation.scene
-        return FloeTable(
-            body=np.arange(scene.count), x0=scene.position[:, 0], y0=scene.position[:, 1], plan_area=scene.plan_area,
-            mass=scene.mass(), volume=scene.volume(), vertices=scene.core_vertices(), outlines=scene.outlines,
-        )  # fmt: skip
+    def _floes_there(self, hits: dict[str, np.ndarray]) -> FloeTable:
+        """The bodies that are there now, and those that load events name, by their numbers."""
+        simulation, scene, entering = self.simulation, self.simulation.scene, self.simulation.entering
+        named = [hits["floe"][k, :count] for k, count in enumerate(hits["floes"])] if hits else []
+        wanted = np.unique(np.concatenate([simulation.state.ids.body, *named]))
+        tables = [floe_table(scene).rows(wanted[wanted < scene.count])]
+        since = wanted[wanted >= scene.count]
+        strips = entering.strips_of(since)
+        for number in np.unique(strips):
+            strip, some = entering.strip(int(number)), since[strips == number]
+            tables.append(floe_table(strip.scene, strip.ids).rows(np.searchsorted(strip.ids, some)))
+        return FloeTable.of(tables)
 
     def _outlines(self) -> list[PlanOutline]:
         extent, outlines = math.hypot(*self.simulation.case.domain.size), []

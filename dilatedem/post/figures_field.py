@@ -29,6 +29,7 @@ SIDES = {
     "periodic": "dashed where periodic",
     "open": "dotted where open",
     "outflow": "dotted where ice leaves",
+    "inflow": "dotted where ice enters and leaves",
     "wall": "full lines where walls stand",
 }
 
@@ -44,7 +45,7 @@ def field_figure(run: RunFolder, outlines: list[np.ndarray]) -> Drawing:
     draw_flows(axes, run)
     axes.set_title(f"{len(outlines)} floes at t = 0")
     size = ""
-    if run.floes is not None and len(run.floes.plan_area):
+    if run.floes is not None and len(run.floes.plan_area) and "inflow" not in run.boundaries:
         area = run.floes.plan_area
         lx, ly = run.domain_size
         size = (

@@ -104,7 +104,8 @@ def _draw_chain(axes: Axes, run: RunFolder, hit: KeptHit) -> None:
 
 def _outline(run: RunFolder, hit: KeptHit, k: int, reference: np.ndarray) -> np.ndarray:
     """(corners, 2) [m] of floe k of the event at its peak: that of t = 0, turned and moved; the image nearest to a reference."""
-    floes, number_ = run.floes, int(hit.floe[k])
+    floes = run.floes
+    number_ = int(np.flatnonzero(floes.columns["body"] == hit.floe[k])[0])
     start = np.array([floes.columns["x0_m"][number_], floes.columns["y0_m"][number_]])
     sine, cosine = math.sin(hit.turned[k]), math.cos(hit.turned[k])
     turn = np.array([[cosine, sine], [-sine, cosine]])

@@ -133,8 +133,8 @@ def run_drawings(run: RunFolder) -> list[Drawing]:
 
 
 def initial_outlines(run: RunFolder, snapshots: list[Snapshot]) -> list[np.ndarray]:
-    """Outlines of the floes at the start, from run.h5 or from a snapshot of t = 0."""
-    if run.floes is not None:
+    """Outlines of the floes at the start, from run.h5, which has others where ice enters, or from a snapshot of t = 0."""
+    if run.floes is not None and "inflow" not in run.boundaries:
         return run.floes.outlines
     return snapshots[0].outlines if snapshots and snapshots[0].time == 0.0 else []
 

@@ -18,7 +18,7 @@ from dilatedem.post.read import RunFolder
 DRIFT_SHOWN = 0.5  # domain lengths that floes are followed beyond an open side
 MARGIN = 0.02  # of the domain's larger side, around everything
 RASTER_FLOES = 2000  # more floes are drawn as pixels also in an SVG, which would grow to many megabytes
-SIDE_STYLE = {"periodic": (0, (6, 3)), "open": (0, (1, 2)), "outflow": (0, (1, 2)), "wall": "solid"}
+SIDE_STYLE = {"periodic": (0, (6, 3)), "open": (0, (1, 2)), "outflow": (0, (1, 2)), "inflow": (0, (1, 2)), "wall": "solid"}
 
 
 @dataclass(frozen=True)

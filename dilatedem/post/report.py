@@ -262,7 +262,15 @@ def fact_rows(run: RunFolder) -> Rows:
         ("threads", "threads", ""),
     ]
     rows = [[label, show(summary[key]), unit] for label, key, unit in facts if summary.get(key) is not None]
-    if run.floes is not None and len(run.floes.mass):
+    if inflow := summary.get("inflow"):
+        told = [
+            ("ice that has come", "ice_m", "m"),
+            ("floes that entered", "entered", ""),
+            ("bodies that left", "left", ""),
+            ("ice waited for room", "waited_s", "s"),
+        ]
+        rows += [[label, show(inflow[key]), unit] for label, key, unit in told if inflow.get(key) is not None]
+    elif run.floes is not None and len(run.floes.mass):
         rows.append(["mass of all floes", number(float(run.floes.mass.sum()) / 1e3), "t"])
     return rows
 

@@ -124,6 +124,9 @@ _SUMMARY = _table(
     hits=_table(
         threshold_N=_figure, gap_s=_figure, meaning=_text, structures=_table(rest=_table(rest=_figure)),
     ),
+    inflow=_table(
+        entered=_whole, left=_whole, omitted=_whole, ice_m=_figure, waited_s=_figure, waited_first_s=_figure
+    ),
     error_check=_table(
         message=_text, structure=_maybe(_text), start_s=_figure, end_s=_figure, change=_maybe(_table(rest=_figure)), wall_s=_figure
     ),

@@ -22,7 +22,7 @@ SPREAD = 1.0
 #: m/s below which nothing drifts
 STILL = 1e-9
 #: boundaries that no ice passes, and how many floes far it still sticks out through them
-PASSED_BY = {"wall": 0.0, "outflow": 1.0}
+PASSED_BY = {"wall": 0.0, "outflow": 1.0, "inflow": 1.0}
 
 
 def advice(case: Case, scene: Scene, model: Model, bodies: Bodies, *, share: float) -> list[str]:
@@ -90,7 +90,7 @@ def _about_structures(case: Case, scene: Scene, model: Model, bodies: Bodies) ->
 def _why_beyond(case: Case, model: Model, parts: list[Part]) -> str:
     """How far a structure stands beyond a side which no ice passes, in words; empty for any other, and for a body that is held."""
     floe = 2.0 * float(model.shapes.reach[: model.floating].max())
-    for axis, boundary in enumerate((case.domain.x_boundary, case.domain.y_boundary)):
+    for axis, boundary in enumerate(case.domain.boundaries):
         if not parts or boundary not in PASSED_BY:
             continue
         half = 0.5 * case.domain.size[axis]

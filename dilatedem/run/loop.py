@@ -134,7 +134,8 @@ def _loop(simulation: Simulation, files: RunFolder, steps: int, progress: Progre
         if interruption.asked and now < steps:
             files.interrupt()
             raise Interrupted(f"interrupted at t = {simulation.time_s:.4f} s; the state is saved, --resume goes on from it")
-    for said in (simulation.crew.remark(), files.complete(lambda: interruption.asked)):
+    remarks = [simulation.crew.remark(), *(event.remark(simulation) for event in simulation.events)]
+    for said in (*remarks, files.complete(lambda: interruption.asked)):
         if said:
             progress.message(said)
 

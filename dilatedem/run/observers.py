@@ -212,6 +212,8 @@ class RunFolder:
         case, step = simulation.case, int(simulation.state.clock.step[0])
         for observer in self._observers:
             told |= observer.summary()
+        for event in simulation.events:
+            told |= event.summary(simulation)
         loads = told["loads"]
         if status == "completed" and loads and not any(load["touched"] for load in loads.values()):
             message = NOTHING_TOUCHED

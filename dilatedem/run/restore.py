@@ -54,6 +54,8 @@ def load_checkpoint(out: Path, case: Case, simulation: Simulation) -> dict:
     if "shapes" in groups:  # bodies have come or gone since the start
         arrays = {name: checkpoint.restore(type(getattr(model, name)), groups[name], where=str(file)) for name in REMODELLED}
         own, structures = model.structure_of[: model.floating], model.structure_of[model.floating :]
-        structure_of = np.concatenate([own[state.ids.body], structures])
+        since, ids = np.full(len(state.ids.body), -1), state.ids.body  # those that have come since are part of no structure
+        since[ids < len(own)] = own[ids[ids < len(own)]]
+        structure_of = np.concatenate([since, structures])
         simulation.adopt(model._replace(floating=len(state.ids.body), structure_of=structure_of, **arrays))
     return meta

@@ -22,11 +22,14 @@ from dilatedem.run.hits import hit_log, hits_at_start
 from dilatedem.run.pace import free_span, time_step
 from dilatedem.run.views import Floes, Structures
 from dilatedem.scene.arrays import build_model, initial_bodies, initial_excursions
+from dilatedem.scene.entering import Entering
+from dilatedem.scene.inflow import strips_at_start
 from dilatedem.scene.overlaps import require_apart
 from dilatedem.scene.place import Scene, compose
 from dilatedem.state.bodies import Bodies, Ids
 from dilatedem.state.clock import NEVER, Clock, Status, clock_at_start
 from dilatedem.state.hits import HitLog, Hits
+from dilatedem.state.inflow import Inflow, inflow_at_start
 from dilatedem.state.ledger import Ledger, empty_ledger, energies
 from dilatedem.state.loads import Loads, Windows, empty_loads, no_windows
 from dilatedem.state.model import Model
@@ -58,10 +61,12 @@ class State:
     clock: Clock
     excursions: Excursions
     watch: Watch | None = None  # of the highest load, where `time.error_check` asks for it
+    inflow: Inflow | None = None  # where ice enters
 
     def groups(self) -> dict:
         """All arrays of the state, by name."""
-        own = {name: getattr(self, name) for name in ("ids", "bodies", "ledger", "loads", "hits", "clock", "excursions")}
+        names = ("ids", "bodies", "ledger", "loads", "hits", "clock", "excursions", *(["inflow"] if self.inflow else []))
+        own = {name: getattr(self, name) for name in names}
         return own | {"pairs": in_use(self.pairs)} | (self.watch.groups() if self.watch else {})
 
     def copies(self) -> dict:
@@ -84,6 +89,7 @@ class Simulation:
     threads: int = 1
     remodelled: bool = False  # whether bodies have come or gone
     timer: NoTimer | Timer = NoTimer()  # a `Timer` for a step that tells how long its stages take
+    entering: Entering | None = field(init=False)  # the ice that enters, if any does
     events: list[Event] = field(init=False)  # that can happen
     spare: Pairs = field(init=False)
     cells: Cells = field(init=False)
@@ -94,6 +100,7 @@ class Simulation:
     crew: Crew = field(init=False)  # of its threads, those that work
 
     def __post_init__(self):
+        self.entering = Entering(self.case, self.scene) if self.scene.stream else None
         self.events, self.crew = events_of(self), Crew(self.threads)
         self.cells, self.tally = make_cells(self.model.floating), empty_tally()
         self.windows, self.log = no_windows(len(self.state.loads.step_contacts)), hit_log(self.case, self.model, self.dt)
@@ -106,7 +113,7 @@ class Simulation:
         if not scene.count:
             raise CaseError("the case has no bodies: no floe is clear of the structures, and there is no [[body]]")
         beyond = [n for n in (case.output.track if case.output.track != "all" else []) if n >= scene.count]
-        if beyond:
+        if beyond and not scene.stream:
             raise CaseError(f"output.track: there is no body {beyond[0]}; they are numbered from 0 to {scene.count - 1}")
         model = build_model(case, scene)
         bodies = initial_bodies(case, scene, model)
@@ -115,9 +122,10 @@ class Simulation:
         span = free_span(case, dt)
         loads = empty_loads(len(scene.records), int(model.charts.map.max(initial=-1)) + 1)
         watch = Watch(dt, span, len(scene.structures)) if case.time.error_check else None
+        inflow = inflow_at_start(strips_at_start(case, scene.stream).stop) if scene.stream else None
         state = State(
             Ids(np.arange(scene.count)), bodies, empty_pairs(PAIRS_PER_BODY * scene.count + 64), empty_ledger(len(WORKS)),
-            loads, hits_at_start(case, dt), clock_at_start(), initial_excursions(scene), watch,
+            loads, hits_at_start(case, dt), clock_at_start(), initial_excursions(scene), watch, inflow,
         )  # fmt: skip
         return cls(case, scene, model, state, dt, critical, span, threads)
 
@@ -238,6 +246,8 @@ class Simulation:
         done |= support_energies(self.model.supports, self.state.excursions)
         if self.events:
             done["carried_out"] = float(ledger.carried_out[0])
+        if self.state.inflow:
+            done["carried_in"] = float(self.state.inflow.carried_in[0])
         absent = () if isinstance(self.model.contact, CRUSHING_SETTINGS) else ("loss_crushing",)
         return energies(ledger, done, absent)
 

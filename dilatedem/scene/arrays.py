@@ -108,7 +108,7 @@ def _solids(case: Case, scene: Scene, supports: Supports) -> Solids:
     inertia, inverse_inertia = np.zeros((count, 3, 3)), np.zeros((count, 3, 3))
     free = np.ones(bodies, np.bool_)
     compliance[scene.explicit : bodies], compliance[bodies:] = _compliance(scene.ice), of_structures
-    for i, given in enumerate(case.body):
+    for i, given in enumerate(case.body[: scene.explicit]):
         free[i], compliance[i] = not given.fixed, _compliance(given)
     mass[:bodies] = scene.mass()
     inertia[:bodies] = scene.unit_inertia() * scene.density[:, None, None]
@@ -140,7 +140,7 @@ def initial_bodies(case: Case, scene: Scene, model: Model) -> Bodies:
     bodies = bodies_at_rest(scene.count + len(parts), len(WORKS))
     bodies.position[: scene.count], bodies.orientation[: scene.count] = scene.position, scene.orientation
     bodies.velocity[scene.explicit : scene.count] = scene.ice.velocity
-    for i, given in enumerate(case.body):
+    for i, given in enumerate(case.body[: scene.explicit]):
         bodies.velocity[i], bodies.angular_velocity[i] = given.velocity, given.angular_velocity
         if not given.fixed:
             turn = matrix_from_quaternion(scene.orientation[i])

@@ -13,8 +13,10 @@ from dilatedem.field.distribution import thicknesses
 from dilatedem.field.drawing import VELOCITY, read
 from dilatedem.field.obstacles import Obstacle
 from dilatedem.field.placement import FloeField, dilated_areas, ice_field, touching_obstacles
+from dilatedem.field.stream import Stream
 from dilatedem.field.survey import Report, Wishes, surveyed
 from dilatedem.geometry import outline as plan
+from dilatedem.scene.inflow import field_of, stream_of
 from dilatedem.scene.recipe import periodic_axes, ragged_axes, recipe_of, whole_axes
 from dilatedem.scene.room import MOST_FACE_CORNERS, generated_floes
 
@@ -35,11 +37,9 @@ class IceProperties:
     @classmethod
     def of_case(cls, case: Case, count: int) -> IceProperties:
         """What floes have that say nothing of their own."""
-        ice, velocity = case.ice, case.ice.initial_velocity
-        if velocity == "current":
-            velocity = (*case.water.velocity, 0.0) if case.water.enabled else (0.0, 0.0, 0.0)
+        ice = case.ice
         each = [np.full(count, value) for value in (ice.thickness, ice.density, ice.elastic_modulus, ice.poisson_ratio)]
-        return cls(*each, np.tile(np.array(velocity, float), (count, 1)))
+        return cls(*each, np.tile(np.array(case.ice_velocity, float), (count, 1)))
 
     def where(self, wanted: np.ndarray) -> IceProperties:
         """Of those floes that are `wanted` (n,), a mask."""
@@ -48,11 +48,12 @@ class IceProperties:
 
 @dataclass(frozen=True, eq=False)
 class Floes:
-    """The generated floes of a case; of outlines of a file also what was changed in them."""
+    """The generated floes of a case, what was changed in outlines of a file, and the stream that floes are part of that enter."""
 
     field: FloeField
     ice: IceProperties
     report: Report | None = None
+    stream: Stream | None = None
 
 
 def floes_of(case: Case, bodies: Sequence[Obstacle]) -> Floes:
@@ -68,6 +69,8 @@ def _none(case: Case, bodies: Sequence[Obstacle]) -> Floes:
 def _cut(case: Case, bodies: Sequence[Obstacle]) -> Floes:
     """Cells of the case's recipe, shrunk to its concentration."""
     count, recipe = generated_floes(case), recipe_of(case)
+    if case.domain.inflow is not None:
+        return _entered(case, stream_of(case, count), bodies)
     ice = _varied(case, IceProperties.of_case(case, recipe.count(case.domain.size, count, whole_axes(case))))
     field = ice_field(
         case.domain.size,
@@ -81,6 +84,13 @@ def _cut(case: Case, bodies: Sequence[Obstacle]) -> Floes:
         ragged=ragged_axes(case),
     )
     return Floes(field, ice.where(field.kept))
+
+
+def _entered(case: Case, stream: Stream, bodies: Sequence[Obstacle]) -> Floes:
+    """What is there at t = 0 of ice without an end."""
+    obstacles = _obstacles(case, IceProperties.of_case(case, 1), bodies)
+    field = field_of(case, stream, obstacles, periodic_axes(case))
+    return Floes(field, IceProperties.of_case(case, len(field.outlines)), stream=stream)
 
 
 def _drawn(case: Case, bodies: Sequence[Obstacle]) -> Floes:

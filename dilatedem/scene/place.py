@@ -14,6 +14,7 @@ from dilatedem.case.schema import Case
 from dilatedem.errors import CaseError
 from dilatedem.field.obstacles import Region
 from dilatedem.field.placement import FloeField, equilibrium_height
+from dilatedem.field.stream import Stream
 from dilatedem.field.survey import Report
 from dilatedem.geometry import outline as plan
 from dilatedem.geometry.floes import floe_shapes
@@ -93,6 +94,7 @@ class Scene:
     field: FloeField
     ice: IceProperties  # of the generated floes
     report: Report | None  # what was changed in outlines of a file
+    stream: Stream | None = None  # what the field is a part of, where ice enters
 
     @property
     def count(self) -> int:
@@ -140,9 +142,14 @@ def compose(case: Case) -> Scene:
     structures = _structures(case)
     try:
         generated = floes_of(case, [Region(body.core_outline, body.shape.radius) for body in explicit])
-        return _scene(case, explicit, generated, structures)
+        return _scene(case, explicit, generated, [*structures, *_held(case, explicit)])
     except ValueError as fault:
         raise CaseError(f"the ice field cannot be built: {fault}") from fault
+
+
+def scene_of_floes(case: Case, floes: Floes, structures: list[PlacedStructure]) -> Scene:
+    """Generated floes alone in their places beside structures. Raises ValueError for one that has no shape or does not float."""
+    return _scene(case, [], floes, [structure for structure in structures if not isinstance(structure.about, HeldBody)])
 
 
 def _scene(case: Case, explicit: list[PlacedBody], generated: Floes, structures: list[PlacedStructure]) -> Scene:
@@ -153,7 +160,6 @@ def _scene(case: Case, explicit: list[PlacedBody], generated: Floes, structures:
     for number, body in enumerate(explicit):
         position[number], orientation[number] = body.position, body.orientation
     shapes, order = [body.shape for body in explicit], [np.arange(first)]
-    structures = [*structures, *_held(case, explicit)]
     for floes, shape, centroid in floe_shapes(field.outlines, ice.thickness, case.ice.dilated_radius):
         order.append(first + floes)
         shapes.append(shape)
@@ -167,12 +173,13 @@ def _scene(case: Case, explicit: list[PlacedBody], generated: Floes, structures:
         orientation=orientation,
         outlines=plan.Outlines.of([*(body.outline for body in explicit), *field.outlines]) if explicit else field.outlines,
         plan_area=np.concatenate([[body.plan_area for body in explicit], field.plan_area]),
-        density=np.concatenate([[body.density for body in case.body], ice.density]),
+        density=np.concatenate([[body.density for body in case.body[:first]], ice.density]),
         structures=structures,
         records=records_of(case, structures),
         field=field,
         ice=ice,
         report=generated.report,
+        stream=generated.stream,
     )
 
 
@@ -206,7 +213,7 @@ def _held(case: Case, explicit: list[PlacedBody]) -> list[PlacedStructure]:
 def _walls(case: Case) -> list[Structure]:
     """Rigid planes where a boundary of the domain is a wall, with the default elasticity of a structure."""
     walls: list[Structure] = []
-    for axis, boundary in enumerate((case.domain.x_boundary, case.domain.y_boundary)):
+    for axis, boundary in enumerate(case.domain.boundaries):
         if boundary != "wall":
             continue
         for side, name in zip((-1.0, 1.0), WALL_NAMES[2 * axis : 2 * axis + 2], strict=True):

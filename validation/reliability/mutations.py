@@ -14,7 +14,8 @@ NUMBERS = [
     -10.0, -1e7, -1e300, math.inf, -math.inf, math.nan,
 ]  # fmt: skip
 TEXTS = [
-    "", "auto", "all", "current", "open", "periodic", "wall", "outflow", "pile", "plane", "box", "voronoi", "bodies", "liu2015",
+    "", "auto", "all", "current", "open", "periodic", "wall", "outflow", "inflow", "pile", "plane", "box", "voronoi", "bodies",
+    "liu2015",
     "consistent", "total", "wall_x_min", "body_0", "a/b", "a.b", "a,b", "\u001b[31m", "\u202e", "\n", "x" * 5000, "\u00e4\u6c37",
 ]  # fmt: skip
 KEYS = ["size", "radius", "center", "velocity", "position", "outline", "vertices", "kind", "name", "fixed", "x\u001by", "", "a b"]

@@ -49,7 +49,7 @@ def fault_lines(tmp_path: Path, text: str, *overrides: str) -> list[str]:
         ("[domain]\nsize = [\n50.0,\n-1.0]", "pile.toml:2: domain.size.1 = -1.0: must be greater than 0"),
         (
             '[domain]\nx_boundary = "periodc"',
-            'pile.toml:2: domain.x_boundary = "periodc": must be "open", "periodic", "wall" or "outflow"; '
+            'pile.toml:2: domain.x_boundary = "periodc": must be "open", "periodic", "wall", "outflow" or "inflow"; '
             'did you mean "periodic"?',
         ),
         ("[time]\nstep = -1", 'pile.toml:2: time.step = -1: must be "auto" or a number greater than 0'),

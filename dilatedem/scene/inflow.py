@@ -1,0 +1,58 @@
+"""Ice that enters through a side: which way it comes, what of it is there at t = 0, and the floes of a strip as bodies.
+
+At t = 0 the ice reaches a margin beyond the upstream side, which it drifts through in two looks of the event that lets it enter.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from dilatedem.case.schema import Case
+from dilatedem.field.obstacles import Obstacle
+from dilatedem.field.placement import FloeField, touching_obstacles
+from dilatedem.field.stream import Course, Stream
+
+#: s between two looks whether a strip is to enter
+LOOK = 1.0
+#: looks before it would drift into the domain, at least, that a strip enters
+EARLY = 2.0
+
+
+def course_of(case: Case) -> Course:
+    """Which way the ice of a case comes in."""
+    axis = case.domain.inflow
+    upstream = -1 if case.ice_velocity[axis] > 0.0 else 1
+    return Course(case.domain.size, axis, upstream, case.domain.boundaries[1 - axis] == "periodic")
+
+
+def drift_speed(case: Case) -> float:
+    """How fast ice enters [m/s]."""
+    return abs(case.ice_velocity[case.domain.inflow])
+
+
+def entrance(case: Case) -> float:
+    """How far upstream of the downstream side the ice begins to be there [m]."""
+    return case.domain.size[case.domain.inflow] + EARLY * LOOK * drift_speed(case)
+
+
+def stream_of(case: Case, count: int) -> Stream:
+    """The ice of a case, without an end; count: floes to the area of its domain. Raises ValueError as `field.stream.Stream`."""
+    return Stream(course_of(case), count, case.field.concentration, seed=case.field.seed, radius=case.ice.dilated_radius)
+
+
+def strips_at_start(case: Case, stream: Stream) -> range:
+    """Numbers of the strips that are there at t = 0."""
+    return stream.until(entrance(case))
+
+
+def field_of(case: Case, stream: Stream, obstacles: Sequence[Obstacle], periodic: tuple[bool, bool]) -> FloeField:
+    """The floes of a stream that are there at t = 0, clear of obstacles."""
+    floes = stream.floes(strips_at_start(case, stream))
+    outlines = floes.outlines
+    inside = np.maximum.reduceat(stream.course.ahead(outlines.points), outlines.start[:-1]) > 0.0
+    outlines, plan_area = outlines.where(inside), floes.plan_area[inside]
+    touching = touching_obstacles(outlines, obstacles, np.asarray(case.domain.size), periodic)
+    clear = ~touching
+    return FloeField(outlines.where(clear), plan_area[clear], plan_area, stream.factor, stream.concentration, clear)
