@@ -72,7 +72,7 @@ from benchmarks.timed_step import timed
 from dilatedem.case.load import load
 from dilatedem.run.simulation import Simulation
 from dilatedem.state.pairs import grown
-from dilatedem.run.pace import total_steps
+from dilatedem.run.ending import total_steps
 case = load(sys.argv[1], [])
 simulation = Simulation.of_case(case)
 simulation.state.pairs = grown(simulation.state.pairs, 4 * len(simulation.state.pairs.a))

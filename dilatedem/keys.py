@@ -163,7 +163,11 @@ class TomlJsonSchema(GenerateJsonSchema):
         return super().default_schema(schema)
 
     def encode_default(self, dft):
-        encoded = super().encode_default(dft)
-        if isinstance(encoded, dict):
-            return {name: value for name, value in encoded.items() if value is not None}
-        return encoded
+        return _without_null(super().encode_default(dft))
+
+
+def _without_null(value: Any) -> Any:
+    """A table without the keys that have no value, and so are the tables in it."""
+    if not isinstance(value, dict):
+        return value
+    return {name: _without_null(item) for name, item in value.items() if item is not None}

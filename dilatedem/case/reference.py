@@ -49,6 +49,9 @@ def page() -> str:
             parts += _section(f"[{name}]", TABLES[name], definitions)
             for kind, distribution in DISTRIBUTIONS.items() if name == "field" else ():
                 parts += _section(f'[field] size_distribution = {{kind = "{kind}"}}', distribution, definitions)
+            for inner, field in TABLES[name].model_fields.items():
+                if isinstance(field.default, Table):
+                    parts += _section(f"[{name}.{inner}]", type(field.default), definitions)
         elif name == "structure":
             for kind, structure in STRUCTURES.items():
                 parts += _section(f'[[structure]] kind = "{kind}"', structure, definitions)
@@ -88,7 +91,7 @@ def _keys(table: type[Table], names: list[str], schema: dict) -> str:
 
 def _allowed(node: dict) -> str:
     """The values a key takes, from its JSON Schema: what the program checks is what the page says."""
-    if "oneOf" in node:
+    if "oneOf" in node or "$ref" in node or "allOf" in node:
         return "table"
     if "anyOf" in node:
         return " or ".join(dict.fromkeys(_allowed(choice) for choice in node["anyOf"]))
@@ -120,7 +123,7 @@ def _default(field: FieldInfo) -> str:
 
 def _value(value: Any) -> str:
     if isinstance(value, Table):
-        return f"{{{', '.join(f'{name} = {_value(item)}' for name, item in value)}}}"
+        return f"{{{', '.join(f'{name} = {_value(item)}' for name, item in value if item is not None)}}}"
     if isinstance(value, bool):
         return str(value).lower()
     if isinstance(value, str):

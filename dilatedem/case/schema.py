@@ -12,6 +12,7 @@ from dilatedem.case.bodies import Body
 from dilatedem.case.domain import Domain, inflow_faults
 from dilatedem.case.field import IceField
 from dilatedem.case.names import name_faults
+from dilatedem.case.until import Until, until_faults
 from dilatedem.field import distribution
 from dilatedem.keys import (
     Fault,
@@ -139,6 +140,7 @@ class Time(Table):
     error_check: bool = key(
         False, "", "`true` replays the highest hit of a run with half the step, once it is done, for the error in that one hit."
     )
+    until: Until = key(Until(), "", "What ends the run before, see `[time.until]`.")
 
     def faults(self) -> list[Fault]:
         if self.step != "auto" and self.step > self.duration:
@@ -206,7 +208,7 @@ class Case(Table):
         found = [*name_faults(self.structure, self.body), *self._body_faults(), *self._track_faults(), *self._check_faults()]
         drift = "water.velocity" if self.ice.initial_velocity == "current" else "ice.initial_velocity"
         found += inflow_faults(self.domain, self.field, self.ice.thickness_spread, self.ice_velocity, drift)
-        return [*found, *self._front_faults()]
+        return [*found, *self._front_faults(), *self._until_faults()]
 
     @property
     def ice_velocity(self) -> tuple[float, float, float]:
@@ -261,6 +263,17 @@ class Case(Table):
             return [(("field", "front"), 'must be "straight" where no side is open: ice ends nowhere')]
         return []
 
+    def _until_faults(self) -> list[Fault]:
+        current = self.water.velocity if self.water.enabled else (0.0, 0.0)
+        standing = sum(structure.kind != "plane" for structure in self.structure)
+        return until_faults(self.time.until, self.domain, current, standing)
+
+    @property
+    def endless(self) -> "Case":
+        """The same case without what says when it ends: what is alike of a run and of a longer one."""
+        never = self.time.model_copy(update={"duration": 1.0, "until": Until()})
+        return self.model_copy(update={"time": never})
+
     def _track_faults(self) -> list[Fault]:
         # The number of generated floes is known only once the field was built, so that is checked there.
         if self.field.source != "bodies" or self.output.track == "all" or not self.body:
@@ -296,6 +309,9 @@ def table_of(path: tuple[str | int, ...], data: dict) -> tuple[type[Table], str]
         except (KeyError, TypeError):
             return None
     if path[0] in TABLES:
+        inner = TABLES[path[0]].model_fields.get(str(path[1]))
+        if len(path) > 2 and inner is not None and isinstance(inner.default, Table):
+            return type(inner.default), str(path[2])
         return TABLES[path[0]], str(path[1])
     if len(path) < 3 or path[0] not in ("structure", "body"):
         return None

@@ -76,18 +76,8 @@ def load(path) -> tuple[dict[str, dict[str, object]], dict]:
 
     Raises CaseError with one sentence if there is no such file or it is not a whole checkpoint.
     """
-    path = Path(path)
-    if not path.exists():
-        raise CaseError(f"{path}: there is no checkpoint to resume from")
-    data = path.read_bytes()
-    seal = SEAL.search(data, max(0, len(data) - SEAL_BYTES))
-    if not seal or seal.end() != len(data):
-        raise CaseError(f"{path}: is damaged, or written by another version (format {FORMAT} is read); start anew with --overwrite")
-    if int(seal[1]) != FORMAT:
-        raise CaseError(f"{path}: checkpoint format {int(seal[1])}, but this version reads {FORMAT}; start anew with --overwrite")
-    image = memoryview(data)[: seal.start()]
-    if hashlib.sha256(image).hexdigest() != seal[2].decode():
-        raise CaseError(f"{path}: is damaged: its digest is not that of its contents; start anew with --overwrite")
+    image = memoryview(image_and_seal(path))
+    image = image[: SEAL.search(image, max(0, len(image) - SEAL_BYTES)).start()]
     try:
         with h5py.File(io.BytesIO(image), "r") as file:
             contents = json.loads(file["contents"][()].tobytes())
@@ -98,6 +88,25 @@ def load(path) -> tuple[dict[str, dict[str, object]], dict]:
         return groups, contents["meta"]
     except (OSError, KeyError, TypeError, ValueError) as fault:
         raise CaseError(f"{path}: is not a readable checkpoint ({fault})") from fault
+
+
+def image_and_seal(path) -> bytes:
+    """The bytes of a whole checkpoint.
+
+    Raises CaseError with one sentence if there is no such file, or a byte of it is another than was written.
+    """
+    path = Path(path)
+    if not path.exists():
+        raise CaseError(f"{path}: there is no checkpoint to resume from")
+    data = path.read_bytes()
+    seal = SEAL.search(data, max(0, len(data) - SEAL_BYTES))
+    if not seal or seal.end() != len(data):
+        raise CaseError(f"{path}: is damaged, or written by another version (format {FORMAT} is read); start anew with --overwrite")
+    if int(seal[1]) != FORMAT:
+        raise CaseError(f"{path}: checkpoint format {int(seal[1])}, but this version reads {FORMAT}; start anew with --overwrite")
+    if hashlib.sha256(memoryview(data)[: seal.start()]).hexdigest() != seal[2].decode():
+        raise CaseError(f"{path}: is damaged: its digest is not that of its contents; start anew with --overwrite")
+    return data
 
 
 def restore(kind: type[State], fields: dict[str, object], *, where: str = "the checkpoint") -> State:

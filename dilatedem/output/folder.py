@@ -21,6 +21,7 @@ STRUCTURE_MOTION = "structures.csv"
 STRUCTURE_COLLECTION = "structures.pvd"
 RUN_ARCHIVE = "run.h5"
 CHECKPOINT = "restart.h5"
+BEFORE_END = "before_end.h5"
 STOPPED = "stopped.h5"
 SUMMARY = "summary.json"
 REPORT = "report.html"  # this one and the figures are made by `post`, and removed with the run that they show
@@ -29,8 +30,8 @@ FIGURES = "figures"
 RUN_MARKS = (CASE, FORCES, CHECKPOINT, SUMMARY)  # any one of them, and the folder holds a run
 #: files that a run replaces and removes, case.toml last: as long as it is there, the folder holds a run that may be replaced
 FILES = (
-    CHECKPOINT, STOPPED, SUMMARY, RUN_ARCHIVE, FORCES, HITS, ENERGY, BODIES, ICE_COLLECTION, STRUCTURES, STRUCTURE_MOTION,
-    STRUCTURE_COLLECTION, REPORT, CASE,
+    CHECKPOINT, BEFORE_END, STOPPED, SUMMARY, RUN_ARCHIVE, FORCES, HITS, ENERGY, BODIES, ICE_COLLECTION, STRUCTURES,
+    STRUCTURE_MOTION, STRUCTURE_COLLECTION, REPORT, CASE,
 )  # fmt: skip
 #: of what lies in folders, the same
 PARTS = {

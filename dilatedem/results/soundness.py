@@ -124,6 +124,7 @@ _SUMMARY = _table(
     hits=_table(
         threshold_N=_figure, gap_s=_figure, meaning=_text, structures=_table(rest=_table(rest=_figure)),
     ),
+    until=_table(met=_list(_text), message=_text),
     inflow=_table(
         entered=_whole, left=_whole, omitted=_whole, ice_m=_figure, waited_s=_figure, waited_first_s=_figure
     ),

@@ -161,7 +161,8 @@ class _Ice:
         backward = min(float((self.velocity @ ahead).min()), float(self.wind @ ahead))
         if sideways > STILL or backward < -STILL:
             return ""
-        if not np.any(self.periodic & (np.abs(ahead) > STILL)) and ((offset @ ahead) + reach + self.reach < 0.0).all():
+        comes_again = self.case.domain.inflow is not None or bool(np.any(self.periodic & (np.abs(ahead) > STILL)))
+        if not comes_again and ((offset @ ahead) + reach + self.reach < 0.0).all():
             return "all ice starts downstream of it, and the current leads it away"
         beside = np.abs(offset @ across) - self.reach - reach
         if not np.any(self.periodic & (np.abs(across) > STILL)) and beside.min() > 2.0 * SPREAD * self.reach.max():

@@ -3,8 +3,8 @@
 import numpy as np
 
 from dilatedem.case.schema import Case
+from dilatedem.run.ending import total_steps
 from dilatedem.run.observers import expected_size
-from dilatedem.run.pace import total_steps
 from dilatedem.run.simulation import Simulation
 from dilatedem.scene.facts import distribution_facts, file_facts, thickness_facts
 from dilatedem.scene.room import memory

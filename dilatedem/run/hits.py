@@ -3,7 +3,7 @@
 import math
 
 from dilatedem.case.schema import Case
-from dilatedem.run.pace import total_steps
+from dilatedem.run.ending import total_steps
 from dilatedem.state.hits import HitLog, Hits, hit_threshold, no_hits, no_log, samples_kept
 from dilatedem.state.model import Model
 

@@ -15,9 +15,9 @@ from dilatedem.output.progress import Progress
 from dilatedem.processes.interruption import Interruption
 from dilatedem.results.files import read_summary
 from dilatedem.results.run import Run
+from dilatedem.run.ending import total_steps
 from dilatedem.run.faults import fault
 from dilatedem.run.observers import RunFolder
-from dilatedem.run.pace import total_steps
 from dilatedem.run.restore import load_checkpoint
 from dilatedem.run.simulation import Simulation
 from dilatedem.state.clock import Status
@@ -44,16 +44,15 @@ def run(case: Case, out: Path, *, threads: int = 1, resume: bool = False, overwr
         with Lock(out) as lock:
             folder.check(out, resume=resume, overwrite=overwrite)  # again: another run may have ended here in between
             saved = load_checkpoint(out, case, simulation) if resume else None
-            if not (saved and _is_complete(out, simulation)):
+            if not (saved and saved["over"] and _is_complete(out, simulation)):
                 _simulate(simulation, out, lock, saved, layer, quiet)
     return out
 
 
 def _is_complete(out: Path, simulation: Simulation) -> bool:
-    """Whether nothing is left to do: the state is that of the end, and the summary says that all that follows was done."""
-    steps = total_steps(simulation.case, simulation.dt)
+    """Whether nothing is left to do, the state being that of the end: the summary says that all that follows was done."""
     summary = read_summary(out / folder.SUMMARY)
-    return int(simulation.state.clock.step[0]) == steps == summary.get("steps") and summary.get("status") == "completed"
+    return int(simulation.state.clock.step[0]) == summary.get("steps") and summary.get("status") == "completed"
 
 
 def _simulate(simulation: Simulation, out: Path, lock: Lock, saved: dict | None, layer: str, quiet: bool) -> None:
@@ -73,7 +72,7 @@ def _simulate(simulation: Simulation, out: Path, lock: Lock, saved: dict | None,
                 if not saved:
                     _stop_on_fault(simulation, files, simulation.evaluate())
                     files.observe()
-                _loop(simulation, files, steps, progress, interruption)
+                _loop(simulation, files, progress, interruption)
 
 
 def _way_on(out: Path, error: OSError) -> str:
@@ -119,22 +118,25 @@ def _compile(simulation: Simulation, progress: Progress) -> float:
     return time.perf_counter() - started
 
 
-def _loop(simulation: Simulation, files: RunFolder, steps: int, progress: Progress, interruption: Interruption) -> None:
+def _loop(simulation: Simulation, files: RunFolder, progress: Progress, interruption: Interruption) -> None:
     clock, longest = simulation.state.clock, -(-LONGEST_CHUNK // simulation.span) * simulation.span
     now = int(clock.step[0])
     progress.update(simulation.time_s, now, lambda: simulation.contacts)
-    while now < steps:
-        status = simulation.advance(min(files.next_due, simulation.next_event(now), steps, now + longest) - now)
+    while now < files.end:
+        if now == files.last_span:
+            files.keep_last_span()
+        goal = files.last_span if now < files.last_span else files.end
+        status = simulation.advance(min(files.next_due, simulation.next_event(now), goal, now + longest) - now)
         _stop_on_fault(simulation, files, status)
         now = int(clock.step[0])
         if simulation.let_happen():
             files.repacked()
-        files.observe(last=now == steps)
+        files.observe(last=now == files.end)
         progress.update(simulation.time_s, now, lambda: simulation.contacts)
-        if interruption.asked and now < steps:
+        if interruption.asked and now < files.end:
             files.interrupt()
             raise Interrupted(f"interrupted at t = {simulation.time_s:.4f} s; the state is saved, --resume goes on from it")
-    remarks = [simulation.crew.remark(), *(event.remark(simulation) for event in simulation.events)]
+    remarks = [files.remark(), simulation.crew.remark(), *(event.remark(simulation) for event in simulation.events)]
     for said in (*remarks, files.complete(lambda: interruption.asked)):
         if said:
             progress.message(said)

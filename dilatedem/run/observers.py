@@ -23,6 +23,7 @@ from dilatedem.output.structures import StructureMotion, StructureSnapshots
 from dilatedem.output.summary import versions, write_summary
 from dilatedem.output.vtu import write_structures
 from dilatedem.run import error_check
+from dilatedem.run.ending import Ending
 from dilatedem.run.error_check import LoadWatch
 from dilatedem.scene.facts import file_facts
 
@@ -47,7 +48,7 @@ class Checkpoints(Observer):
 
 #: all observers, in the order in which they look; the first one's interval is that of the windows of loads
 OBSERVERS: tuple[type[Observer], ...] = (
-    Forces, LoadWatch, Hits, Energies, StructureMotion, TrackedBodies, Snapshots, StructureSnapshots, Record, Checkpoints,
+    Forces, LoadWatch, Hits, Energies, StructureMotion, TrackedBodies, Snapshots, StructureSnapshots, Record, Ending, Checkpoints,
 )  # fmt: skip
 
 
@@ -70,18 +71,22 @@ class RunFolder:
         Of an earlier run nothing is left where it starts. compile_s: time [s] that was spent on the kernels before.
         """
         self._simulation, self._out = simulation, Path(out)
-        self._digest = write.digest(simulation.case)
+        self._digest = write.digest(simulation.case.endless)
         self._began, self._checked = time.perf_counter(), {}
         kept = saved["observers"] if saved else {}
         self._wall_s, self._compile_s = (saved["wall_s"], saved["compile_s"]) if saved else (0.0, 0.0)
         self._wall_s, self._compile_s = self._wall_s + compile_s, self._compile_s + compile_s
         if not saved:
             self._start_folder()
+        elif self._case_text() != (self._out / folder.CASE).read_text(encoding="utf-8"):  # a longer run than before
+            write_text(self._out / folder.CASE, self._case_text())
         self._background = Background()
         self._observers = [kind(simulation, self._out, self._background) for kind in OBSERVERS]
         step = int(simulation.state.clock.step[0])
         for observer in self._observers:
             observer.open(kept.get(observer.name, {}) if saved else None, step if saved else -1)
+        self._ending, self._over = self._of(Ending), bool(saved and saved["over"])
+        self._ending.attach(self._of(Forces))
         self._refreshed = time.monotonic()
         self._look_ahead(step if saved else -1)
         if not saved:
@@ -91,11 +96,17 @@ class RunFolder:
         self._out.mkdir(parents=True, exist_ok=True)
         folder.clear(self._out)
         case, scene = self._simulation.case, self._simulation.scene
-        header = f"# dilatedem {__version__}, seed {case.field.seed}\n\n"
-        write_text(self._out / folder.CASE, header + write.dump(case))
+        write_text(self._out / folder.CASE, self._case_text())
         extent = math.hypot(*case.domain.size)
         drawings = [[] if each.support.moves else each.about.drawing(extent) for each in scene.structures]
         write_structures(self._out / folder.STRUCTURES, drawings)
+
+    def _case_text(self) -> str:
+        case = self._simulation.case
+        return f"# dilatedem {__version__}, seed {case.field.seed}\n\n{write.dump(case)}"
+
+    def _of(self, kind: type[Observer]) -> Observer:
+        return next(observer for observer in self._observers if isinstance(observer, kind))
 
     def __enter__(self) -> "RunFolder":
         return self
@@ -116,12 +127,33 @@ class RunFolder:
         """The next step that some observer must see."""
         return self._next_due
 
+    @property
+    def end(self) -> int:
+        """The step with which the run ends, as far as is known."""
+        return self._ending.end
+
+    @property
+    def last_span(self) -> int:
+        """The step from which on the end of the run makes a difference: the start of its last span."""
+        return (self.end - 1) // self._simulation.span * self._simulation.span
+
+    def remark(self) -> str:
+        """Why the run ends before its duration is over, if it does."""
+        return self._ending.remark()
+
+    def keep_last_span(self) -> None:
+        """Save the state before the end makes a difference: a longer run goes on from it."""
+        self._refresh()
+        for observer in self._observers:
+            observer.save()
+        self._put_checkpoint(folder.BEFORE_END)
+
     def _look_ahead(self, step: int) -> None:
         self._next_due = min(observer.next_due(step) for observer in self._observers)
 
     def observe(self, *, last: bool = False) -> None:
         """Have the present step looked at (`last`: the run's last, which closes every window)."""
-        step = int(self._simulation.state.clock.step[0])
+        step, self._over = int(self._simulation.state.clock.step[0]), last
         for observer in self._observers:
             observer.look(step, last)
         if not last and any(observer.must_save(step) for observer in self._observers):
@@ -195,7 +227,7 @@ class RunFolder:
     def _put_checkpoint(self, file: str) -> None:
         """Have the state of this moment saved."""
         watch = self._simulation.state.watch
-        meta = {"version": __version__, "case": self._digest, "dt": self._simulation.dt}
+        meta = {"version": __version__, "case": self._digest, "dt": self._simulation.dt, "over": self._over}
         meta |= {"wall_s": self._wall_s, "compile_s": self._compile_s}
         meta |= {"watch": watch.figures()} if watch else {}
         kept = {observer.name: observer.kept() for observer in self._observers}

@@ -90,7 +90,3 @@ def free_span(case: Case, dt: float) -> int:
 def _divides(span: int, steps: float) -> bool:
     whole = round(steps)
     return abs(steps - whole) <= 1e-9 * steps and whole % span == 0
-
-
-def total_steps(case: Case, dt: float) -> int:
-    return math.ceil(case.time.duration / dt - 1e-9)

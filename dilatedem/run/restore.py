@@ -6,13 +6,19 @@ import numpy as np
 
 from dilatedem import __version__
 from dilatedem.case import write
+from dilatedem.case.load import load
 from dilatedem.case.schema import Case
 from dilatedem.errors import CaseError
+from dilatedem.files.atomic import write_bytes
 from dilatedem.output import checkpoint, folder
 from dilatedem.output.tables import verified
+from dilatedem.run.ending import total_steps
 from dilatedem.run.observers import OBSERVERS
 from dilatedem.run.simulation import REMODELLED, Simulation
 from dilatedem.state.pairs import unpacked
+
+#: keys that are named where two cases differ, at most
+MOST_NAMED = 5
 
 
 def restored(case: Case, out: Path) -> Simulation:
@@ -25,21 +31,11 @@ def restored(case: Case, out: Path) -> Simulation:
 def load_checkpoint(out: Path, case: Case, simulation: Simulation) -> dict:
     """Restore the state saved in the run folder `out` into `simulation`; returns the checkpoint's meta.
 
-    Raises CaseError where there is none, where it is damaged or belongs to another case, version or step, or where the tables are
-    not those that it was taken after.
+    A case that differs in when it ends alone goes on from a state of before that made a difference. Raises CaseError where there
+    is none, where it is damaged or belongs to another case, version or step, or where the tables are not those that it was taken
+    after.
     """
-    kept, file = out / folder.CASE, out / folder.CHECKPOINT
-    text = kept.read_text(encoding="utf-8", errors="replace") if kept.exists() else ""
-    if text.partition("\n\n")[2] != write.dump(case):
-        raise CaseError(f"{kept}: is not the case given; resume with the case that the run was started with")
-    groups, meta = checkpoint.load(file)
-    if meta["case"] != write.digest(case):
-        raise CaseError(f"{file}: belongs to another case than {kept}; start anew with --overwrite")
-    if meta["version"] != __version__:
-        raise CaseError(f"{file}: was written by dilatedem {meta['version']}; resume with that version")
-    if meta["dt"] != simulation.dt:
-        steps = f"{meta['dt']:g} s, this program takes {simulation.dt:g} s"
-        raise CaseError(f"{file}: has steps of {steps}; run anew with --overwrite")
+    file, (groups, meta) = out / folder.CHECKPOINT, _saved(out, case, simulation.dt)
     for kind in OBSERVERS:
         table = meta["observers"].get(kind.name, {})
         if "digest" in table:
@@ -59,3 +55,58 @@ def load_checkpoint(out: Path, case: Case, simulation: Simulation) -> dict:
         structure_of = np.concatenate([since, structures])
         simulation.adopt(model._replace(floating=len(state.ids.body), structure_of=structure_of, **arrays))
     return meta
+
+
+def _saved(out: Path, case: Case, dt: float) -> tuple[dict, dict]:
+    """Groups and meta of the state from which a case with steps of `dt` [s] goes on in the run folder `out`."""
+    kept, file = out / folder.CASE, out / folder.CHECKPOINT
+    ends_alike = require_same(kept, case)
+    groups, meta = checkpoint.load(file)
+    if meta["case"] != write.digest(case.endless):
+        raise CaseError(f"{file}: belongs to another case than {kept}; start anew with --overwrite")
+    if meta["version"] != __version__:
+        raise CaseError(f"{file}: was written by dilatedem {meta['version']}; resume with that version")
+    if meta["dt"] != dt:
+        steps = f"{meta['dt']:g} s, this program takes {dt:g} s"
+        raise CaseError(f"{file}: has steps of {steps}; run anew with --overwrite")
+    if (came := int(groups["clock"]["step"][0])) > total_steps(case, dt):
+        begun = f"the run has come to {came * dt:g} s already"
+        raise CaseError(f"time.duration = {case.time.duration:g}: {begun}; ask for more, or run anew with --overwrite")
+    if meta.get("over") and not ends_alike:
+        write_bytes(file, checkpoint.image_and_seal(out / folder.BEFORE_END), durable=True)
+        groups, meta = checkpoint.load(file)
+    return groups, meta
+
+
+def require_same(kept: Path, case: Case) -> bool:
+    """Whether a case ends as that of a run folder, whose file is `kept`; it may be longer, or have fewer conditions that end it.
+
+    Raises CaseError that names the keys in which they differ else.
+    """
+    text = kept.read_text(encoding="utf-8", errors="replace") if kept.exists() else ""
+    if text.partition("\n\n")[2] == write.dump(case):
+        return True
+    try:
+        before = load(kept)
+    except CaseError:
+        raise CaseError(f"{kept}: is not the case given; resume with the case that the run was started with") from None
+    until, asked = before.time.until.model_dump(), case.time.until.model_dump()
+    added = [f"time.until.{name}" for name, value in asked.items() if value and value != until[name]]
+    differing = [*_differing(before.endless.model_dump(), case.endless.model_dump()), *added]
+    if differing:
+        more = f" and {len(differing) - MOST_NAMED} more" if len(differing) > MOST_NAMED else ""
+        raise CaseError(
+            f"{kept}: is not the case given: it has another {', '.join(differing[:MOST_NAMED])}{more}; resume with the case that "
+            "the run was started with: only time.duration may be another, and conditions of time.until be left out"
+        )
+    return False
+
+
+def _differing(one, other, key: str = "") -> list[str]:
+    """Dotted keys at which two cases, as plain tables and lists, hold different values."""
+    if isinstance(one, dict) and isinstance(other, dict):
+        names = dict.fromkeys([*one, *other])
+        return [found for name in names for found in _differing(one.get(name), other.get(name), f"{key}.{name}" if key else name)]
+    if isinstance(one, list) and isinstance(other, list) and len(one) == len(other):
+        return [found for i, pair in enumerate(zip(one, other, strict=True)) for found in _differing(*pair, f"{key}.{i}")]
+    return [] if one == other else [key]

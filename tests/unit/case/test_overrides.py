@@ -83,7 +83,7 @@ def test_floe_size_and_count_replace_each_other():
 @pytest.mark.parametrize("table", list(TABLES))
 def test_every_key_can_be_overridden_by_its_default(table):
     case = load(PILE)
-    for line in dump(case).split(f"[{table}]\n")[1].split("\n\n")[0].splitlines():
+    for line in dump(case).split(f"[{table}]\n")[1].split("\n\n")[0].split("\n[")[0].splitlines():
         name, value = line.split("  #")[0].split(" = ", 1)
         assert load(PILE, [f"{table}.{name}={value}"]) == case
 

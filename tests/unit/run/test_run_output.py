@@ -13,7 +13,7 @@ import pytest
 from dilatedem.case.load import load
 from dilatedem.output.schedule import Schedule
 from dilatedem.run import loop, observers
-from dilatedem.run.pace import total_steps
+from dilatedem.run.ending import total_steps
 from dilatedem.run.simulation import Simulation
 from dilatedem.state.clock import Status
 

@@ -11,8 +11,9 @@ from dilatedem.case.load import load
 from dilatedem.case.schema import Case
 from dilatedem.errors import CaseError, Interrupted, SimulationStopped
 from dilatedem.run import loop
+from dilatedem.run.ending import total_steps
 from dilatedem.run.foretell import check
-from dilatedem.run.pace import free_span, time_step, total_steps
+from dilatedem.run.pace import free_span, time_step
 from dilatedem.run.simulation import Simulation
 from dilatedem.state.clock import Status
 from dilatedem.state.pairs import empty_pairs
