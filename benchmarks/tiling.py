@@ -28,7 +28,7 @@ def repeated_hulls(hulls: Hulls, copies: int) -> Hulls:
 
 def repeated_solids(solids: Solids, floating: int, copies: int) -> Solids:
     """Masses of `copies` scenes of `floating` floes each."""
-    return Solids(*(_repeat(array, floating, copies) for array in solids))
+    return type(solids)(*(_repeat(array, floating, copies) for array in solids))
 
 
 def repeated_bodies(bodies: Bodies, floating: int, moves: np.ndarray) -> Bodies:

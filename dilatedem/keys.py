@@ -15,6 +15,8 @@ from pydantic_core import PydanticCustomError
 
 # TOML integers end here; a larger seed could not be written back to case.toml.
 LARGEST_INTEGER = 2**63 - 1
+#: rows of a table of time or of depth, at most
+MOST_ROWS = 10_000
 
 
 class Range(NamedTuple):

@@ -64,7 +64,7 @@ def _faults(item: dict, data: dict) -> list[tuple[Path, str]]:
             return [(path, _choice(kinds, str(context["tag"])))]
         return [(path, f"is missing; it {_choice(kinds, '')}")]
     header = ".".join(step for step in path if isinstance(step, str))
-    if header in ("structure", "structure.part", "body") and item["type"] == "list_type":
+    if header in ("structure", "structure.part", *schema.LISTED) and item["type"] == "list_type":
         return [(path, f"must be a list of tables, each under a header [[{header}]]")]
     whole, allowed = _mixed_key(path, data)
     if allowed is not None:

@@ -12,9 +12,9 @@ from typing import Any
 from pydantic import ValidationError
 
 from dilatedem.case import faults
+from dilatedem.case.histories import fill_tables
 from dilatedem.case.limits import MOST_FAULTS, impossible
 from dilatedem.case.lines import Path, line_numbers, line_of
-from dilatedem.case.motion import fill_tables
 from dilatedem.case.overrides import Override, apply, parse
 from dilatedem.case.schema import Case
 from dilatedem.errors import CaseError

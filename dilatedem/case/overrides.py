@@ -119,7 +119,7 @@ def _item(items: list, part: str, path: Path, override: Override) -> int:
 
 def _missing(path: Path, data: dict) -> Any:
     """What stands at `path` when the case file says nothing: the default, or an empty table."""
-    if path in (("structure",), ("body",)):
+    if path in (("structure",), *((name,) for name in schema.LISTED)):
         return []
     owner = schema.table_of(path, data)
     if owner is not None and owner[1] in owner[0].model_fields:

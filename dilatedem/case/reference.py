@@ -8,7 +8,7 @@ from typing import Any
 
 from pydantic.fields import FieldInfo
 
-from dilatedem.case.schema import DISTRIBUTIONS, STRUCTURES, SUPPORTS, TABLES, Body, Case, json_schema
+from dilatedem.case.schema import DISTRIBUTIONS, LISTED, STRUCTURES, SUPPORTS, TABLES, Case, json_schema
 from dilatedem.keys import OTHER_RANGE, RANGES, Table
 
 PAGE = Path("docs", "case-file.md")
@@ -57,8 +57,8 @@ def page() -> str:
                 parts += _section(f'[[structure]] kind = "{kind}"', structure, definitions)
             for kind, support in SUPPORTS.items():
                 parts += _section(f'[[structure]] support = {{kind = "{kind}"}}', support, definitions)
-        elif name == "body":
-            parts += _section("[[body]]", Body, definitions)
+        elif name in LISTED:
+            parts += _section(f"[[{name}]]", LISTED[name], definitions)
     return "\n".join(parts)
 
 

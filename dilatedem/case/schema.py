@@ -12,6 +12,7 @@ from dilatedem.case.bodies import Body
 from dilatedem.case.domain import Domain, inflow_faults
 from dilatedem.case.field import IceField
 from dilatedem.case.names import name_faults
+from dilatedem.case.sea import Water, Wave, Wind, wave_faults
 from dilatedem.case.until import Until, until_faults
 from dilatedem.field import distribution
 from dilatedem.keys import (
@@ -22,7 +23,6 @@ from dilatedem.keys import (
     Positive,
     Table,
     TomlJsonSchema,
-    Vector2,
     Vector3,
     complete,
     key,
@@ -69,31 +69,6 @@ class Ice(Table):
 
     def faults(self) -> list[Fault]:
         return _dilation_faults(self.dilated_radius, self.thickness)
-
-
-class Water(Table):
-    """Buoyancy and the drag of a uniform current, on the part of a floe below z = 0."""
-
-    enabled: bool = key(True, "", "`false` switches buoyancy and drag off.")
-    density: Positive = key(1025.0, "kg/m3", "Density of the sea water.")
-    velocity: Vector2 = key((0.3, 0.0), "m/s", "Velocity of the current along x and y.")
-    drag_force_coefficient: NonNegative = key(
-        0.6, "", "Coefficient of the drag force, referred to the wetted surface (Liu 2015, Eq. 26)."
-    )
-    drag_moment_coefficient: NonNegative = key(
-        0.1, "", "Coefficient of the drag moment, referred to the wetted surface (Liu 2015, Eq. 27)."
-    )
-
-
-class Wind(Table):
-    """A steady wind, on what of a floe stands out of the water. `velocity = [0, 0]` switches it off."""
-
-    velocity: Vector2 = key((0.0, 0.0), "m/s", "Velocity of the wind along x and y, at the height that the coefficients refer to.")
-    density: Positive = key(1.3, "kg/m3", "Density of the air.")
-    skin_coefficient: NonNegative = key(0.002, "", "Coefficient of the drag on the upper face, referred to the plan area.")
-    form_coefficient: NonNegative = key(
-        0.8, "", "Coefficient of the drag on the sides, referred to the freeboard times the mean width of the floe."
-    )
 
 
 class Gravity(Table):
@@ -191,6 +166,7 @@ class Case(Table):
     ice: Ice = Ice()
     water: Water = Water()
     wind: Wind = Wind()
+    wave: list[Wave] = []
     gravity: Gravity = Gravity()
     structure: list[Annotated[Union[kinds.KINDS], Field(discriminator="kind")]] = []  # noqa: UP007 (a union of a list of classes)
     contact: Contact = Contact()
@@ -202,12 +178,18 @@ class Case(Table):
     def laws(self) -> dict[str, Any]:
         """What decides which machine code a run needs: arguments of `run.loop.compile_kernels`."""
         crushing = self.ice.crushing_pressure is not None
-        return {"model": self.contact.model, "damping_law": self.contact.damping_law, "crushing": crushing}
+        return {"model": self.contact.model, "damping_law": self.contact.damping_law, "crushing": crushing, "sea": self.at_sea}
+
+    @property
+    def at_sea(self) -> bool:
+        """Whether water or wind vary, or floes take water along: more than the paper's loads, in machine code of its own."""
+        return bool(self.wave) or self.water.varies or self.wind.velocity_table is not None
 
     def faults(self) -> list[Fault]:
         found = [*name_faults(self.structure, self.body), *self._body_faults(), *self._track_faults(), *self._check_faults()]
         drift = "water.velocity" if self.ice.initial_velocity == "current" else "ice.initial_velocity"
         found += inflow_faults(self.domain, self.field, self.ice.thickness_spread, self.ice_velocity, drift)
+        found += wave_faults(self.wave, self.water.enabled, self.gravity.acceleration)
         return [*found, *self._front_faults(), *self._until_faults()]
 
     @property
@@ -290,6 +272,8 @@ TABLES: dict[str, type[Table]] = {
     for name, field in Case.model_fields.items()
     if isinstance(field.annotation, type) and issubclass(field.annotation, Table)
 }
+#: what a case has any number of, besides structures
+LISTED: dict[str, type[Table]] = {"wave": Wave, "body": Body}
 STRUCTURES: dict[str, type[Table]] = dict(kinds.BY_NAME)
 SUPPORTS: dict[str, type[Table]] = dict(support.BY_NAME)
 DISTRIBUTIONS: dict[str, type[Table]] = dict(distribution.BY_NAME)
@@ -313,10 +297,10 @@ def table_of(path: tuple[str | int, ...], data: dict) -> tuple[type[Table], str]
         if len(path) > 2 and inner is not None and isinstance(inner.default, Table):
             return type(inner.default), str(path[2])
         return TABLES[path[0]], str(path[1])
-    if len(path) < 3 or path[0] not in ("structure", "body"):
+    if len(path) < 3 or path[0] not in ("structure", *LISTED):
         return None
-    if path[0] == "body":
-        return Body, str(path[2])
+    if path[0] in LISTED:
+        return LISTED[path[0]], str(path[2])
     last = 4 if len(path) > 4 and path[2] == "part" else 2  # a key of a part, or of a structure
     try:
         table = data

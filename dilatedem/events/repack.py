@@ -6,7 +6,7 @@ Bodies keep their ids; contacts of bodies that stay keep their memory, and the l
 import numpy as np
 
 from dilatedem.geometry.packing import selected, together
-from dilatedem.state.bodies import Bodies, Ids, Solids
+from dilatedem.state.bodies import Bodies, Ids
 from dilatedem.state.model import Model
 from dilatedem.state.pairs import PackedPairs, Pairs, in_use, unpacked
 
@@ -59,7 +59,7 @@ def of_rows(model: Model, rows: np.ndarray) -> Model:
         structure_of=model.structure_of[rows],
         shapes=selected(model.shapes, rows),
         hulls=selected(model.hulls, rows[:floating]),
-        solids=Solids(*(values[rows] for values in model.solids)),
+        solids=type(model.solids)(*(values[rows] for values in model.solids)),
     )
 
 
@@ -70,7 +70,7 @@ def _together(model: Model, came: Model, rows: np.ndarray) -> Model:
         structure_of=np.concatenate([model.structure_of, came.structure_of])[rows],
         shapes=selected(together(model.shapes, came.shapes), rows),
         hulls=together(model.hulls, came.hulls),
-        solids=Solids(*(np.concatenate(both)[rows] for both in zip(model.solids, came.solids, strict=True))),
+        solids=type(model.solids)(*(np.concatenate(both)[rows] for both in zip(model.solids, came.solids, strict=True))),
     )
 
 

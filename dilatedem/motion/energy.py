@@ -5,19 +5,20 @@ from dilatedem.jit import item
 from dilatedem.motion.integrate import kinetic_energy
 from dilatedem.numerics.rotation import rotation_matrix
 from dilatedem.numerics.vector import load
-from dilatedem.state.ledger import BUOYANCY, ELASTIC, GRAVITY, KINETIC
-from dilatedem.state.response import is_free
+from dilatedem.state.ledger import BUOYANCY, ELASTIC, GRAVITY, KINETIC, KINETIC_WATER
+from dilatedem.state.response import is_free, water_energies
 from dilatedem.water.floating import submerge
 
 
 @item
 def book_energies(model, bodies, pairs, workspace, ledger):
-    """Kinetic energy, energy of weight and of buoyancy, elastic energy of all contacts at this instant, to the ledger.
+    """Kinetic energy of bodies and of the water they take along, energy of weight and of buoyancy, elastic energy of all contacts
+    at this instant, to the ledger.
 
     Buoyancy: the water a body has displaced was lifted from the centre of buoyancy to the surface, -rho g V z_B, whose gradient
     is the buoyancy force and moment of any convex body.
     """
-    kinetic = weight = buoyancy = elastic = 0.0
+    kinetic = water = weight = buoyancy = elastic = 0.0
     floating, solids, setting, hulls = model.floating, model.solids, model.loads, model.hulls
     q, wet = bodies.orientation, workspace.wet
     if setting.water:
@@ -25,7 +26,9 @@ def book_energies(model, bodies, pairs, workspace, ledger):
     for i in range(floating):
         if not is_free(i, solids):
             continue
-        kinetic += kinetic_energy(i, solids, bodies)
+        straight, turning = water_energies(i, solids, bodies)
+        kinetic += kinetic_energy(i, solids, bodies) - turning
+        water += straight + turning
         z = bodies.position[i, 2]
         weight += solids.mass[i] * setting.gravity * z
         if setting.water:
@@ -38,3 +41,4 @@ def book_energies(model, bodies, pairs, workspace, ledger):
             elastic += pairs.stored[k] + 0.5 * pairs.shear_stiffness[k] * length(load(pairs.slip, k), pairs.wrung[k]) ** 2
     stored = ledger.instant
     stored[KINETIC], stored[GRAVITY], stored[BUOYANCY], stored[ELASTIC] = kinetic, weight, buoyancy, elastic
+    stored[KINETIC_WATER] = water

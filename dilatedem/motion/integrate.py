@@ -76,7 +76,7 @@ def complete_spin(i, solids, bodies):
 
 @device
 def kinetic_energy(i, solids, bodies):
-    """J; zero for a fixed body."""
+    """J, with that of the water that turns with the body; zero for a fixed body."""
     if not is_free(i, solids):
         return 0.0
     v = load(bodies.velocity, i)

@@ -17,6 +17,7 @@ from dilatedem.numerics.blocks import take
 from dilatedem.numerics.plain import dot, norm, nth_root, turned
 from dilatedem.numerics.vector import load
 from dilatedem.state.response import gives_way, mobility
+from dilatedem.water.loads import fastest_water
 
 #: impact speed, as a share of sqrt(gravity x reach), for which contacts are laid out where nothing moves yet
 SETTLING_SPEED = 0.5
@@ -45,7 +46,7 @@ def critical_step(model, bodies, only=None) -> float:
     speed = _impact_speed(model, bodies, free)
     shrink = sqrt(1.0 + damping * damping) - damping
     mobility, area = _worst_mobility(shapes, solids)[free], _largest_face(shapes)[free]
-    compliance, inverse_mass, radius = solids.compliance[free], solids.inverse_mass[free], shapes.radius[free]
+    compliance, inverse_mass, radius = solids.compliance[free], _lightest(solids)[free], shapes.radius[free]
     shortest = min(_outrunning(model, bodies, free), _swinging(model.supports))
     # against a body like itself (both give way), against what does not move, and against structures that give way
     partners = [(2.0 * mobility, 2.0 * inverse_mass, 2.0 * compliance), (mobility, inverse_mass, compliance + stiffest_held)]
@@ -66,7 +67,7 @@ def _impact_speed(model, bodies, free) -> float:
     """A speed [m/s] at which bodies may hit each other: the case's own velocities, or what gravity gives them."""
     setting, driven = model.loads, _fastest_driven(model)
     moving = (norm(bodies.velocity[free]) + norm(bodies.angular_velocity[free]) * model.shapes.reach[free]).max()
-    current = norm([setting.current_x, setting.current_y])
+    current = fastest_water(setting)
     settling = SETTLING_SPEED * np.sqrt(setting.gravity * model.shapes.reach[free].max())
     return max(2.0 * moving, moving + driven, current + driven, settling, 1e-6)
 
@@ -115,7 +116,12 @@ def _worst_mobility(shapes, solids) -> np.ndarray:
             lever = np.cross(corners, axis)
             turning = dot(lever, turned(solids.inverse_inertia[bodies][:, None], lever))
             most[bodies] = np.maximum(most[bodies], turning.max(axis=1))
-    return solids.inverse_mass + most
+    return _lightest(solids) + most
+
+
+def _lightest(solids) -> np.ndarray:
+    """(n,) largest 1/m [1/kg] with which each body as a whole gives way; water that it takes along makes it heavier alone."""
+    return np.maximum(solids.inverse_mass, getattr(solids, "inverse_heave_mass", 0.0))
 
 
 def _largest_face(shapes) -> np.ndarray:

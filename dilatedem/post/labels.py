@@ -41,12 +41,24 @@ KEYS: dict[str, tuple[str, str]] = {
     "water.velocity": ("current speed", "m/s"),
     "water.velocity.0": ("current along x", "m/s"),
     "water.velocity.1": ("current along y", "m/s"),
+    "water.velocity_file": ("table of the current", ""),
+    "water.shear": ("current against depth", ""),
+    "water.drag": ("drag law of the water", ""),
     "water.drag_force_coefficient": ("drag force coefficient", ""),
     "water.drag_moment_coefficient": ("drag moment coefficient", ""),
+    "water.skin_coefficient": ("skin drag coefficient of the water", ""),
+    "water.form_coefficient": ("form drag coefficient of the water", ""),
+    "water.added_mass": ("added mass of the water", ""),
     "wind.velocity": ("wind speed", "m/s"),
+    "wind.velocity_file": ("table of the wind", ""),
     "wind.density": ("density of the air", "kg/m³"),
     "wind.skin_coefficient": ("skin drag coefficient of the wind", ""),
     "wind.form_coefficient": ("form drag coefficient of the wind", ""),
+    "wave.amplitude": ("wave amplitude", "m"),
+    "wave.period": ("wave period", "s"),
+    "wave.direction": ("wave direction", "°"),
+    "wave.phase": ("wave phase", "°"),
+    "wave.rise": ("time over which the wave rises", "s"),
     "gravity.acceleration": ("gravity", "m/s²"),
     "structure.center": ("centre", "m"),
     "structure.radius": ("radius", "m"),
@@ -109,7 +121,7 @@ def describe_key(key: str) -> tuple[str, str]:
     if key in KEYS:
         return KEYS[key]
     parts = key.split(".")
-    if parts[0] in ("structure", "body") and len(parts) > 2 and parts[1].isdigit():
+    if parts[0] in ("structure", "body", "wave") and len(parts) > 2 and parts[1].isdigit():
         if parts[2] == "part" and len(parts) > 4:
             parts = [parts[0], *parts[3:]]  # a part of a structure has the keys of one
         what, unit = describe_key(".".join([parts[0], *parts[2:]]))

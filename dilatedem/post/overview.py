@@ -96,7 +96,7 @@ def _moment_words(statistics: dict) -> str:
 
 def energy_words(energy: dict) -> str:
     """How large the residual of the ledger is, beside the work of the loads, where they did any, and the energy turned over."""
-    beside = (("residual_over_work", "the work of current and wind"), ("residual_over_turned_over", "the energy turned over"))
+    beside = (("residual_over_work", "the work of water and wind"), ("residual_over_turned_over", "the energy turned over"))
     words = [f"{number(100.0 * energy[key], 3)} % of {what}" for key, what in beside if energy.get(key) is not None]
     return f"residual {', '.join(words)}" if words else ""
 

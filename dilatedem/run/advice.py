@@ -6,12 +6,14 @@ import numpy as np
 
 from dilatedem.case.schema import Case
 from dilatedem.run.advice_driven import about_driven, extent, farthest
+from dilatedem.run.advice_waves import about_waves
 from dilatedem.scene.overlaps import structures_in_each_other
 from dilatedem.scene.place import PlacedStructure, Scene
 from dilatedem.scene.recipe import periodic_axes
 from dilatedem.state.bodies import Bodies
 from dilatedem.state.model import Model
 from dilatedem.structures.kind import Part
+from dilatedem.water.loads import fastest_water
 
 #: share of the critical step above which loads are too far off: at 0.6 peaks overshoot by 5 to 23 % (docs/theory.md, time step)
 LARGEST_FRACTION = 0.5
@@ -28,7 +30,7 @@ PASSED_BY = {"wall": 0.0, "outflow": 1.0, "inflow": 1.0}
 def advice(case: Case, scene: Scene, model: Model, bodies: Bodies, *, share: float) -> list[str]:
     """Sentences about a simulation at t = 0; share: time step over the critical one."""
     found = [_about_step(share), _about_window(case, share), _about_thickness(case, scene)]
-    found += _about_structures(case, scene, model, bodies) + about_driven(case, scene)
+    found += _about_structures(case, scene, model, bodies) + about_driven(case, scene) + about_waves(case, model)
     return [sentence for sentence in found if sentence]
 
 
@@ -108,8 +110,8 @@ class _Ice:
         self.case, self.scene = case, scene
         self.place, self.velocity = bodies.position[free, :2], bodies.velocity[free, :2]
         self.height, self.reach, self.every_reach = bodies.position[free, 2], model.shapes.reach[free], model.shapes.reach
-        self.current = np.array(case.water.velocity if case.water.enabled else (0.0, 0.0))
-        self.wind = np.array(case.wind.velocity)
+        self.current = np.array(case.water.strongest if case.water.enabled else (0.0, 0.0))
+        self.wind, self.fastest_water = np.array(case.wind.strongest), fastest_water(model.loads)
         self.periodic = np.array(periodic_axes(case))
 
     def why_not_at(self, structure: PlacedStructure, parts: list[Part]) -> str:
@@ -121,7 +123,7 @@ class _Ice:
         offset = place - self.place
         offset -= np.where(self.periodic, np.round(offset / size) * np.where(self.periodic, size, 0.0), 0.0)
         gap = float((np.hypot(*offset.T) - self.reach - reach).min())
-        fastest = max(float(np.hypot(*self.velocity.T).max()), float(np.hypot(*self.current)), float(np.hypot(*self.wind)))
+        fastest = max(float(np.hypot(*self.velocity.T).max()), self.fastest_water, float(np.hypot(*self.wind)))
         duration = self.case.time.duration
         driven = farthest(self.case, structure)
         if gap > fastest * duration + driven:
@@ -152,8 +154,8 @@ class _Ice:
 
     def _why_not_along(self, offset: np.ndarray, reach: float) -> str:
         """As `why_not_at`, by the direction in which all ice drifts, if there is one; offset (n, 2) [m]: to the structure."""
-        speed = float(np.hypot(*self.current))
-        if speed <= STILL:
+        speed, steady = float(np.hypot(*self.current)), len(self.case.water.history) == len(self.case.wind.history) == 1
+        if speed <= STILL or self.case.wave or not steady:
             return ""
         ahead = self.current / speed
         across = np.array([-ahead[1], ahead[0]])

@@ -35,6 +35,8 @@ def check(case: Case) -> dict:
     if len(areas):
         facts |= {"concentration": scene.field.concentration, "floe size, m": float(np.sqrt(areas.mean()))}
         facts |= distribution_facts(case, scene) | file_facts(case, scene) | thickness_facts(case, scene)
+    for number, wave in enumerate(case.wave):
+        facts[f"length of wave.{number}, m"] = case.gravity.acceleration * wave.period**2 / (2.0 * np.pi)
     for structure in scene.structures:
         facts |= {f'structure "{structure.name}"': sentence for sentence in structure.about.remarks()}
     return facts | {"warnings": simulation.advice()}

@@ -38,7 +38,7 @@ from dilatedem.state.setting import CRUSHING_SETTINGS
 from dilatedem.state.storage import Cells, Tally, Workspace, empty_tally, make_cells, make_workspace
 from dilatedem.state.supports import Excursions, support_energies
 from dilatedem.step.advance import advance
-from dilatedem.water.loads import WORKS, works_of
+from dilatedem.water.loads import WORKS, wet_columns, works_of
 
 #: room for pairs at the start, per body; it grows where it is not enough
 PAIRS_PER_BODY = 8
@@ -206,11 +206,14 @@ class Simulation:
         """
         clock, loads, windows = self.state.clock, self.state.loads, self.windows
         step, now, begun = int(clock.step[0]), float(clock.time[0]), bool(clock.begun[0])
+        since = int(clock.since_step[0]), float(clock.since_time[0])
         steps, count = int(loads.steps[0]), int(windows.count[0])
         kept = {name: getattr(loads, name).copy() for name in ("window_sum", "window_extreme", "contact_sum", "mode_steps")}
         clock.begun[0] = 1
+        clock.since_step[0], clock.since_time[0] = step, now  # loads that depend on the time are those of now
         status = self._advance(1, dt=0.0)
         clock.step[0], clock.time[0], loads.steps[0], windows.count[0] = step, now, steps, count
+        clock.since_step[0], clock.since_time[0] = since
         if begun:
             for name, values in kept.items():
                 getattr(loads, name)[...] = values
@@ -248,7 +251,8 @@ class Simulation:
             done["carried_out"] = float(ledger.carried_out[0])
         if self.state.inflow:
             done["carried_in"] = float(self.state.inflow.carried_in[0])
-        absent = () if isinstance(self.model.contact, CRUSHING_SETTINGS) else ("loss_crushing",)
+        absent = [] if isinstance(self.model.contact, CRUSHING_SETTINGS) else ["loss_crushing"]
+        absent += [] if self.case.water.added_mass else ["kinetic_water"]
         return energies(ledger, done, absent)
 
     def assembled_step_ratio(self) -> float:
@@ -301,4 +305,5 @@ class Simulation:
             self.state.pairs = grown(self.state.pairs, capacity)
         capacity = len(self.state.pairs.a)
         self.spare = empty_pairs(capacity)
-        self.workspace = make_workspace(self.model.shapes, self.model.hulls, capacity, self.threads)
+        columns = wet_columns(self.model.loads)
+        self.workspace = make_workspace(self.model.shapes, self.model.hulls, capacity, self.threads, columns)

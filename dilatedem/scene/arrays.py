@@ -6,15 +6,16 @@ from dilatedem.case.schema import Case
 from dilatedem.contact.consistent.dashpot import own_damping
 from dilatedem.errors import CaseError
 from dilatedem.geometry.outline import perimeter
-from dilatedem.geometry.shapes import pack_hulls, pack_shapes, tapered
+from dilatedem.geometry.shapes import Hulls, pack_hulls, pack_shapes, tapered
 from dilatedem.numerics.blocks import offsets
 from dilatedem.numerics.frames import matrix_from_quaternion
 from dilatedem.numerics.plain import inverse, turned
+from dilatedem.scene.added_mass import with_water
 from dilatedem.scene.carriage import pack_supports, places, velocities_at_start
 from dilatedem.scene.place import Scene
 from dilatedem.scene.recipe import periodic_axes
 from dilatedem.scene.records import flow_direction
-from dilatedem.state.bodies import Bodies, Solids, bodies_at_rest
+from dilatedem.state.bodies import Bodies, Solids, WateredSolids, bodies_at_rest
 from dilatedem.state.charts import Along, Charts
 from dilatedem.state.model import Model
 from dilatedem.state.records import records_of
@@ -38,14 +39,14 @@ def build_model(case: Case, scene: Scene) -> Model:
     shapes.plan_reach[scene.count :] = [part.plan_reach for part in parts]
     periodic = periodic_axes(case)
     _require_one_image(case, shapes.reach[: scene.count], cores, periodic)
-    supports = pack_supports(scene)
+    supports, hulls = pack_supports(scene), pack_hulls(scene.shapes, scene.order)
     return Model(
         floating=scene.count,
         structure_of=np.concatenate([_held(scene), _numbers(scene)]).astype(np.int64),
         whole_of=scene.whole_of(),
         shapes=tapered(shapes, np.concatenate([np.zeros(scene.count), [part.taper for part in parts]])),
-        hulls=pack_hulls(scene.shapes, scene.order),
-        solids=_solids(case, scene, supports),
+        hulls=hulls,
+        solids=_solids(case, scene, supports, hulls),
         contact=_contact_setting(case),
         loads=load_setting(case),
         surroundings=Surroundings(*np.where(periodic, case.domain.size, 0.0).tolist()),
@@ -99,8 +100,8 @@ def _require_one_image(case: Case, reach: np.ndarray, cores: list[Part], periodi
         raise CaseError(f"{where}the two largest bodies could meet on both sides at once")
 
 
-def _solids(case: Case, scene: Scene, supports: Supports) -> Solids:
-    """Masses, elasticity and friction; structures give way by what their supports let them."""
+def _solids(case: Case, scene: Scene, supports: Supports, hulls: Hulls) -> Solids | WateredSolids:
+    """Masses, elasticity and friction; structures give way by what their supports let them. At sea, with the water taken along."""
     bodies = scene.count
     of_structures = [_compliance(structure.about) for structure in scene.structures for _ in structure.parts]
     count = bodies + len(of_structures)
@@ -119,7 +120,10 @@ def _solids(case: Case, scene: Scene, supports: Supports) -> Solids:
     parts, of_part = bodies + supports.part, np.repeat(supports.moving, np.diff(supports.part_start))
     carried[parts], give[parts] = True, supports.inverse_mass[of_part][:, [0, 2]]
     seat[parts] = turned(matrix_from_quaternion(supports.upright).swapaxes(1, 2), supports.seat)
-    return Solids(inverse_mass, mass, inertia, inverse_inertia, compliance, _friction(case, scene), carried, give, seat)
+    solids = Solids(inverse_mass, mass, inertia, inverse_inertia, compliance, _friction(case, scene), carried, give, seat)
+    water = case.water
+    density = water.density if water.enabled and water.added_mass else 0.0
+    return with_water(solids, hulls, scene.volume(), density) if case.at_sea else solids
 
 
 def _friction(case: Case, scene: Scene) -> np.ndarray:

@@ -48,7 +48,7 @@ def records_of(case: Case, structures: list) -> list[Record]:
 
 
 def flow_direction(case: Case) -> tuple[float, float]:
-    """Unit vector of the current; along x in still water."""
-    u, v = case.water.velocity if case.water.enabled else (0.0, 0.0)
+    """Unit vector of the current, where a table tells it of its strongest; along x in still water."""
+    u, v = case.water.strongest if case.water.enabled else (0.0, 0.0)
     speed = math.sqrt(u * u + v * v)
     return (u / speed, v / speed) if speed > 0.0 else (1.0, 0.0)

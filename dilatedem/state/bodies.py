@@ -22,6 +22,17 @@ class Solids(NamedTuple):
     seat: np.ndarray  # (n, 3) m, from the place of a structure that moves to the body's centroid, in the body's frame
 
 
+#: `Solids` that take water along, which resists being accelerated with them. `inverse_mass` is that of body and water together
+#: along x and y, and so are `inertia` and `inverse_inertia`; `mass` is the body's own. A class of its own, so that kernels know
+#: nothing of it where no body has any.
+WateredSolids = NamedTuple("WateredSolids", [
+    *Solids.__annotations__.items(),
+    ("inverse_heave_mass", np.ndarray),  # (n,) 1/kg, of body and water along z
+    ("added_mass", np.ndarray),  # (n, 2) kg, of the water: along x and y, along z
+    ("added_inertia", np.ndarray),  # (n,) kg m2, of the water, about any axis across the body's z axis
+])  # fmt: skip
+
+
 class Ids(NamedTuple):
     """Numbers of the bodies that float, as users know them. A row may stand for another body once some have come or gone."""
 

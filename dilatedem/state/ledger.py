@@ -38,6 +38,8 @@ TERMS = (
     Term("gain_law", GAIN, CONTACT, "made by jumps of the contact law"),
     Term("loss_crushing", LOSS, CONTACT, "lost to crushing", optional=True),
     Term("work_wind", GAIN, LOAD, "work of the wind", optional=True),
+    Term("work_wave", GAIN, LOAD, "work of the waves", optional=True),
+    Term("kinetic_water", STORED, INSTANT, "kinetic, of the water that floes take along", optional=True),
     Term("structure_kinetic", STORED, STRUCTURE, "kinetic, of structures", optional=True),
     Term("structure_elastic", STORED, STRUCTURE, "elastic, of what carries structures", optional=True),
     Term("loss_support", LOSS, STRUCTURE, "lost in what carries structures", optional=True),
@@ -51,7 +53,9 @@ LOSS_DAMPING, LOSS_FRICTION, GAIN_LAW, LOSS_CRUSHING = map(
 )
 #: what an instant has: the entries of `Ledger.instant`, and the number of each
 INSTANTS = tuple(term.name for term in TERMS if term.owner == INSTANT)
-KINETIC, GRAVITY, BUOYANCY, ELASTIC = map(INSTANTS.index, ("kinetic", "gravity", "buoyancy", "elastic"))
+KINETIC, GRAVITY, BUOYANCY, ELASTIC, KINETIC_WATER = map(
+    INSTANTS.index, ("kinetic", "gravity", "buoyancy", "elastic", "kinetic_water")
+)
 
 
 class Ledger(NamedTuple):

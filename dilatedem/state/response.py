@@ -1,8 +1,9 @@
 """How a body moves and what it opposes to a force: the one door to both, for contacts and for motion."""
 
-from dilatedem.jit import item
+from dilatedem.jit import by_type, item
 from dilatedem.numerics.rotation import rotation_matrix, to_body, to_world
-from dilatedem.numerics.vector import add, along, cross, load, sub
+from dilatedem.numerics.vector import add, along, cross, dot, load, sub
+from dilatedem.state.bodies import WateredSolids
 
 
 @item
@@ -36,9 +37,18 @@ def relative_spin(spin, a, b):
 
 
 @item
-def pushed(i, solids, velocity, time, force):
-    """The velocity [m/s] that a force [N] makes of `velocity` in a time [s]."""
+def _pushed(i, solids, velocity, time, force):
     return along(velocity, time * solids.inverse_mass[i], force)
+
+
+@item
+def _pushed_with_water(i, solids, velocity, time, force):
+    level, heave = time * solids.inverse_mass[i], time * solids.inverse_heave_mass[i]
+    return velocity[0] + level * force[0], velocity[1] + level * force[1], velocity[2] + heave * force[2]
+
+
+#: pushed(i, solids, velocity, time, force): the velocity [m/s] that a force [N] makes of `velocity` in a time [s].
+pushed = by_type(_pushed, {WateredSolids: _pushed_with_water}, at=1)
 
 
 @item
@@ -85,9 +95,42 @@ def carried_mobility(i, solids, orientation, lever, normal):
 
 
 @item
+def _lightness(i, solids, normal):
+    return solids.inverse_mass[i]
+
+
+@item
+def _lightness_with_water(i, solids, normal):
+    level, heave = solids.inverse_mass[i], solids.inverse_heave_mass[i]
+    return level * (normal[0] * normal[0] + normal[1] * normal[1]) + heave * normal[2] * normal[2]
+
+
+#: lightness(i, solids, normal): 1/m [1/kg] with which body i as a whole gives way along the unit vector `normal`.
+lightness = by_type(_lightness, {WateredSolids: _lightness_with_water}, at=1)
+
+
+@item
+def _no_water(i, solids, bodies):
+    return 0.0, 0.0
+
+
+@item
+def _water_taken_along(i, solids, bodies):
+    v, w, q = load(bodies.velocity, i), load(bodies.angular_velocity, i), bodies.orientation
+    R = rotation_matrix(q[i, 0], q[i, 1], q[i, 2], q[i, 3])
+    upright = dot(w, (R[0][2], R[1][2], R[2][2]))
+    straight = solids.added_mass[i, 0] * (v[0] * v[0] + v[1] * v[1]) + solids.added_mass[i, 1] * v[2] * v[2]
+    return 0.5 * straight, 0.5 * solids.added_inertia[i] * (dot(w, w) - upright * upright)
+
+
+#: water_energies(i, solids, bodies): kinetic energy [J] of the water that body i takes along, where it moves and where it turns.
+water_energies = by_type(_no_water, {WateredSolids: _water_taken_along}, at=1)
+
+
+@item
 def mobility(i, solids, orientation, lever, normal):
     """1/m' [1/kg] of body i at `lever` from its centroid along the unit vector `normal`: 1/m + (r x n).I^-1.(r x n)."""
-    total = solids.inverse_mass[i]
+    total = lightness(i, solids, normal)
     if total == 0.0:
         return carried_mobility(i, solids, orientation, lever, normal)
     q, give = orientation, solids.inverse_inertia

@@ -44,7 +44,7 @@ class Workspace(NamedTuple):
     leap: np.ndarray  # (threads,) m, how far it moved
     surprise: np.ndarray  # (threads,) whether some body has passed its horizon
     clip: np.ndarray  # (threads, 8, MOST_CORNERS, 3) polygons being clipped, faces that look at each other
-    wet: np.ndarray  # (floating, 5) submerged volume, centre of buoyancy (body frame), wetted area
+    wet: np.ndarray  # (floating, 5) submerged volume, centre of buoyancy (body frame), wetted area; at sea more: `water.sea`
     hull: np.ndarray  # (threads, h, 4) outer vertices of one body, and their heights
 
 
@@ -68,8 +68,8 @@ def make_cells(floating: int) -> Cells:
     return Cells(most, np.zeros(most * most + 2, np.int64), np.zeros(floating, np.int64), np.zeros(floating, np.int64))
 
 
-def make_workspace(shapes, hulls, capacity: int, threads: int) -> Workspace:
-    """Workspace for packed shapes and hulls, a list of `capacity` pairs and a number of threads."""
+def make_workspace(shapes, hulls, capacity: int, threads: int, wet_columns: int = 5) -> Workspace:
+    """Workspace for packed shapes and hulls, a list of `capacity` pairs and a number of threads; wet_columns: of `wet`."""
     most, bodies = int(np.diff(hulls.vertex_start).max(initial=1)), len(shapes.radius)
     return Workspace(
         vertex=shapes.vertex.copy(),
@@ -93,7 +93,7 @@ def make_workspace(shapes, hulls, capacity: int, threads: int) -> Workspace:
         leap=np.zeros(threads),
         surprise=np.zeros(threads, np.bool_),
         clip=np.zeros((threads, 8, MOST_CORNERS, 3)),
-        wet=np.zeros((len(hulls.prism), 5)),
+        wet=np.zeros((len(hulls.prism), wet_columns)),
         hull=np.zeros((threads, most, 4)),
     )
 

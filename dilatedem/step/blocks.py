@@ -15,8 +15,7 @@ from dilatedem.motion.integrate import drift, kick
 from dilatedem.motion.paces import LONGEST_MOVE
 from dilatedem.state.response import is_free
 from dilatedem.step.ahead import fetch_ahead
-from dilatedem.water.floating import submerge
-from dilatedem.water.loads import body_loads
+from dilatedem.water.loads import body_loads, wet_bodies
 
 
 @device
@@ -99,7 +98,7 @@ def float_block(
     while last > first and chosen[last - 1] >= floating:  # structures feel no water, nor are they kicked here
         last -= 1
     if setting.water:
-        submerge(chosen, first, last, hulls, bodies, workspace, block)
+        wet_bodies(setting, time, chosen, first, last, hulls, bodies, workspace, block)
     for w in range(first, last):
         i = chosen[w]
         force, torque = body_loads(i, dt, time, setting, hulls, solids, bodies, workspace.wet)

@@ -12,13 +12,11 @@ from typing import Annotated, Any, Literal, Union
 import numpy as np
 from pydantic import Field, model_validator
 
-from dilatedem.keys import Fault, NonNegative, Positive, Stiffness2, Table, Vector2, complete, key
+from dilatedem.keys import MOST_ROWS, Fault, NonNegative, Positive, Stiffness2, Table, Vector2, complete, key
 from dilatedem.state.supports import Carried
 
 #: of the critical damping, where a case does not say
 DAMPING_RATIO = 0.02
-#: rows of a table of time, at most
-MOST_ROWS = 10_000
 #: columns of a file of motion
 MOTION_COLUMNS = ("time_s", "x_m", "y_m", "yaw_rad")
 

@@ -79,8 +79,8 @@ def test_round_trip(data):
 
 
 def test_every_default_is_explicit_and_units_stand_beside():
-    solids = {"structure": [{"kind": "pile"}], "body": [{"vertices": [[0, 0, 0]]}]}
-    text = dump(Case.model_validate(solids))
+    listed = {"structure": [{"kind": "pile"}], "body": [{"vertices": [[0, 0, 0]]}], "wave": [{"amplitude": 0.1, "period": 3.0}]}
+    text = dump(Case.model_validate(listed))
     data = tomllib.loads(text)
     assert set(data) == set(Case.model_fields)
     assert set(data["structure"][0]) == {
