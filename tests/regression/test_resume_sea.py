@@ -1,0 +1,31 @@
+"""A run in a sea that varies, stopped and resumed with another number of threads, equals one that never was: what waves and tables
+say depends on the time alone.
+"""
+
+from math import inf
+
+import pytest
+from folders import assert_same_run
+from test_resume_matrix import asked_after
+
+from dilatedem.case.load import load
+from dilatedem.errors import Interrupted
+from dilatedem.run import loop
+from tests.verification.comparison import CASES
+
+SHORTER = (
+    "time.duration=1.5", "time.step_fraction=0.3", "output.checkpoint_interval=0.2", "output.snapshot_interval=0.25",
+    "domain.x_boundary=outflow", "water.velocity_table=[[0.0, 1.5, 0.0], [0.6, 2.0, 0.3], [1.5, 1.0, 0.1]]",
+)  # fmt: skip
+
+
+def test_resumed_equals_uninterrupted(monkeypatch, tmp_path):
+    case, never = load(CASES / "sea_ledger.toml", SHORTER), asked_after(inf)
+    monkeypatch.setattr(loop, "Interruption", never)
+    whole = loop.run(case, tmp_path / "whole", quiet=True)
+    monkeypatch.setattr(loop, "Interruption", asked_after(never.looks // 2))
+    with pytest.raises(Interrupted):
+        loop.run(case, tmp_path / "parts", quiet=True)
+    monkeypatch.undo()
+    loop.run(case, tmp_path / "parts", threads=2, resume=True, quiet=True)
+    assert_same_run(tmp_path / "parts", whole)
