@@ -5,7 +5,8 @@ force would exceed the pressure p of crushed ice on the nominal area A (`contact
 
     F(pose, d) <= p A(pose, d),    d' >= 0,    d' (p A - F) = 0,    p = C (A/1 m2)^q.
 
-F falls and p A rises with d: there is one root, and the contact never gets stiffer. What crushing costs is the integral of p A dd.
+F falls and p A rises with d: there is one root, and the contact never gets stiffer. What crushing costs is the integral of p A dd;
+with an energy W of the pose it is that of -dW/dd, which is more by (overlap/reach)^2/2.
 The depth stays with the pair, through all modes, until the bodies are GONE apart; where they come off and turn to another place of
 the floe, what is left of it there is what still overlaps.
 """
@@ -25,9 +26,11 @@ GONE = 0.1
 CLOSE = 2e-5
 #: evaluations of a contact in which it is found: two or three but for the first step of a hit
 MOST = 40
-#: what is left of the limit of a contact, as it is remembered, after each step in which it was not looked at: the pose may have
-#: changed, and the nearer a contact is to its limit, the sooner it is looked at again
-FADING = 0.9
+#: what is left of the limit of a contact, as it is remembered, after each step in which it was not looked at: it may have slid to
+#: where it bears less
+FADING = 0.997
+#: ... and by how many times the share of its crushed depth that its bodies have turned apart it fades besides
+TURNING = 2.0
 
 
 class Search(NamedTuple):
@@ -37,6 +40,9 @@ class Search(NamedTuple):
     low: float  # m, where the force is above the limit
     high: float  # m, where it is below
     first: float  # m, the crushed depth of the last step
+    last: float  # m, the depth that was tried last
+    force: float  # N, there
+    stored: float  # J, there
 
 
 class Crushed(NamedTuple):
@@ -47,7 +53,7 @@ class Crushed(NamedTuple):
 
 
 #: of a contact that was not looked at yet
-UNTRIED = Search(0, 0.0, inf, 0.0)
+UNTRIED = Search(0, 0.0, inf, 0.0, 0.0, 0.0, 0.0)
 #: of a contact that bears everything
 WHOLE = Crushed(inf, 0.0)
 
@@ -65,7 +71,7 @@ def _worn(contact, k, pairs):
 
 @item
 def _never_settles(
-    contact, k, search, crushed, force, damped, stored, overlap, vertex, face_normal, shapes, pairs, offset, normal, pa, pb,
+    contact, k, turned, search, crushed, force, damped, stored, overlap, vertex, face_normal, shapes, pairs, offset, normal, pa, pb,
     scratch,
 ):  # fmt: skip
     return True, crushed, search, WHOLE
@@ -73,21 +79,21 @@ def _never_settles(
 
 @item
 def _settle(
-    contact, k, search, crushed, force, damped, stored, overlap, vertex, face_normal, shapes, pairs, offset, normal, pa, pb,
+    contact, k, turned, search, crushed, force, damped, stored, overlap, vertex, face_normal, shapes, pairs, offset, normal, pa, pb,
     scratch,
 ):  # fmt: skip
     """Whether the crushed depth [m] of pair k is found; the depth, to be tried next where it is not; the search; what it means.
 
-    force [N], stored [J], overlap [m]: of the elastic law at `crushed`; damped [N]: that force with its dashpot; the rest as of
-    `nominal_area`. Where what the ice bore when it was last looked at is more by far, it need not be looked at again; where the
-    contact is new, it may be at another place.
+    turned [m]: how far at most the bodies turned away from each other where they touch, in the last step; force [N], stored [J],
+    overlap [m]: of the elastic law at `crushed`; damped [N]: that force with its dashpot; the rest as of `nominal_area`.
     """
-    remembered = FADING * pairs.bears[k] if pairs.overlap[k] > 0.0 else 0.0
-    if search.tries == 0 and damped <= remembered:
-        return True, crushed, search, Crushed(remembered, 0.0)
+    if search.tries == 0:
+        remembered = _remembered(k, turned, crushed, pairs)
+        if damped <= remembered:
+            return True, crushed, search, Crushed(remembered, 0.0)
     area, rate = nominal_area(vertex, face_normal, shapes, pairs.a[k], pairs.b[k], offset, normal, pa, pb, crushed, scratch)
     limit, limit_rate = _limit(contact, area, rate)
-    tries, low, high, first = search
+    tries, low, high, first = search.tries, search.low, search.high, search.first
     excess = force - limit
     if tries == 0:
         if excess <= 0.0:
@@ -105,7 +111,19 @@ def _settle(
         further = crushed + _step(excess, force, stored, overlap, limit, limit_rate)
         if not low < further < high:
             further = 0.5 * (low + high)
-    return False, further, Search(tries + 1, low, high, first), Crushed(limit, 0.0)
+    return False, further, Search(tries + 1, low, high, first, crushed, force, stored), Crushed(limit, 0.0)
+
+
+@item
+def _remembered(k, turned, crushed, pairs):
+    """What pair k still bears at least [N], by what it bore when it was last looked at; 0: it must be looked at.
+
+    The area of a crushed depth changes as bodies tilt, by as much as depths do, and little as they slide. A contact that is new may
+    be at another place.
+    """
+    if pairs.overlap[k] <= 0.0 or TURNING * turned >= crushed:
+        return 0.0
+    return FADING * pairs.bears[k] * (1.0 - TURNING * turned / crushed)
 
 
 @item
@@ -140,6 +158,25 @@ def _step(excess, force, stored, overlap, limit, limit_rate):
         left = force * exp(power * log(1.0 - share))
         share += (left - limit - rise * share) / (power * left / (1.0 - share) + rise)
     return share * overlap
+
+
+@item
+def _as_much(contact, search, crushed, force, stored, overlap):
+    return 1.0
+
+
+@item
+def _dearer(contact, search, crushed, force, stored, overlap):
+    """What the energy of a pose falls by with its crushed depth, -dW/dd, over its force.
+
+    As found: crushed depth and overlap [m], force [N], energy [J]. It is taken between the depth that was tried last and this one,
+    with a force that is a power of the overlap.
+    """
+    if search.tries == 0 or search.force == force:
+        return 1.0
+    last = overlap + crushed - search.last
+    power = log(search.force / force) / log(last / overlap)
+    return (power + 1.0) * (search.stored - stored) / (search.force * last - force * overlap)
 
 
 @item
@@ -197,5 +234,6 @@ def _where_ice_crushes(otherwise, function):
 
 worn = _where_ice_crushes(_nothing_worn, _worn)
 settle = _where_ice_crushes(_never_settles, _settle)
+dearer = _where_ice_crushes(_as_much, _dearer)
 remember = _where_ice_crushes(_keeps, _remember)
 note_crushed = _where_ice_crushes(_note_nothing, _note)

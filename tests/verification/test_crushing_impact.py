@@ -13,9 +13,10 @@ falls on a horizontal brace. With an elastic law F(x), W(x) in series, which is 
 also of a second hit on what has crushed. Whatever the elasticity, peak = P(d) and loss = integral of P.
 """
 
+import numpy as np
 import pytest
 
-from validation.crushing import closed_forms
+from validation.crushing import closed_forms, collisions
 from validation.crushing.references import crushed_side
 
 STIFF = {each.name: each for each in closed_forms.RIGID}
@@ -58,3 +59,11 @@ def test_elasticity_and_crushing_in_series(model):
         assert hit.restitution == pytest.approx(expected.restitution, rel=2e-3), each.what
         assert hit.lost == pytest.approx(expected.lost, rel=1e-3), each.what
         assert abs(hit.residual) < 1e-4, each.what
+
+
+@pytest.mark.parametrize("model", ["liu2015", "consistent"])
+def test_random_collisions_lose_what_the_ledger_knows(model):
+    found = collisions.survey(model, range(60))
+    assert (found.crushed > 0.0).sum() > 50
+    assert np.abs(found.residual).max() < 1e-4
+    assert (found.kept - found.gained).max() < 1.0 + 1e-6

@@ -125,15 +125,17 @@ def histories() -> list[str]:
 
 def random_collisions() -> list[str]:
     lines = [
-        "| model | collisions | crush, % | energy kept, median, % | kept, most, % | residual, median | largest |",
-        "| --- |" + " ---: |" * 6,
+        "| model | collisions | crush, % | energy kept, median, % | kept, most, % | made by the law, most, % | "
+        "kept less made, most, % | residual, median | largest |",
+        "| --- |" + " ---: |" * 8,
     ]
     for model in MODELS:
         found = collisions.survey(model)
         size = np.abs(found.residual)
         cells = [
             f"{len(found.kept)}", f"{100.0 * (found.crushed > 0.0).mean():.1f}", number(100.0 * float(np.median(found.kept)), 3),
-            f"{100.0 * found.kept.max():.4f}", f"{np.median(size):.1e}", f"{size.max():.1e}",
+            f"{100.0 * found.kept.max():.4f}", number(100.0 * float(found.gained.max()), 3),
+            f"{100.0 * (found.kept - found.gained).max():.4f}", f"{np.median(size):.1e}", f"{size.max():.1e}",
         ]  # fmt: skip
         lines.append(f"| `{model}` | {' | '.join(cells)} |")
     return lines

@@ -5,11 +5,11 @@ from typing import NamedTuple
 
 from dilatedem.contact.consistent.cone import energy_of_pose
 from dilatedem.contact.consistent.dashpot import dashpot
-from dilatedem.contact.crushing import UNTRIED, WHOLE, note_crushed, settle, worn
+from dilatedem.contact.crushing import UNTRIED, WHOLE, dearer, note_crushed, settle, worn
 from dilatedem.contact.pressed import Pressed
 from dilatedem.contact.search.cone import radius_at
 from dilatedem.jit import device, item
-from dilatedem.numerics.vector import along, cross, dot, scale, store, sub
+from dilatedem.numerics.vector import along, cross, dot, norm, scale, store, sub
 from dilatedem.state.response import mobility, relative_spin, relative_velocity
 
 #: share of the sum of the radii past which the distance of the cores means nothing to the energy: they are about to touch
@@ -105,11 +105,13 @@ def press_consistent(contact, k, dt, shapes, vertex, face_normal, solids, bodies
             pairs.grip[k] = 0.0
             return Pressed(mode, size, overlap, middle, normal, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, NONE, NONE)
         acting = _act(contact, a, b, solids, bodies, offset, middle, energy, force, moment)
+        turned = dt * norm(acting.turning) * norm(pa)
         settled, crushed, search, found = settle(
-            contact, k, search, crushed, acting.elastic, acting.share * acting.elastic, energy, overlap, vertex,
+            contact, k, turned, search, crushed, acting.elastic, acting.share * acting.elastic, energy, overlap, vertex,
             face_normal, shapes, pairs, offset, normal, pa, pb, scratch,
         )  # fmt: skip
     note_crushed(contact, k, crushed, found, bodies, pairs, pa)
+    crumbled = found.lost * dearer(contact, search, crushed, acting.elastic, energy, overlap)
     direction, strength, share = acting.direction, acting.strength, min(acting.share, found.limit / acting.elastic)
     rocking, rocking_power = NONE, 0.0
     if contact.damping > 0.0:
@@ -124,5 +126,5 @@ def press_consistent(contact, k, dt, shapes, vertex, face_normal, solids, bodies
     return Pressed(
         mode=mode, size=size, overlap=overlap, point=acting.point, direction=direction, normal_force=share * acting.elastic,
         elastic_power=acting.power, damping_power=damping_power, shear_stiffness=shear_stiffness, dashpot=strength,
-        stored=energy, gain=0.0, crumbled=found.lost, velocity=acting.velocity, turning=acting.turning,
+        stored=energy, gain=0.0, crumbled=crumbled, velocity=acting.velocity, turning=acting.turning,
     )  # fmt: skip
