@@ -31,7 +31,7 @@ def kernels_compiled_once(request, tmp_path_factory):
     folder = common_folder(tmp_path_factory) / "compiling"
     with compiled_in_turn(folder):
         if any(item.path.name == "test_resume_matrix.py" for item in request.session.items):
-            kinds = [(threads, model) for threads in (1, 2) for model in sorted({name for name, *_ in CONTACT_SETTINGS})]
+            kinds = [(threads, model) for threads in (1, 2) for model in sorted({name for name, _ in CONTACT_SETTINGS})]
             share_out({f"{model}-{threads}": partial(compile_kernels, threads, model) for threads, model in kinds}, folder)
         yield
 

@@ -177,8 +177,8 @@ class Case(Table):
     @property
     def laws(self) -> dict[str, Any]:
         """What decides which machine code a run needs: arguments of `run.loop.compile_kernels`."""
-        crushing = self.ice.crushing_pressure is not None
-        return {"model": self.contact.model, "damping_law": self.contact.damping_law, "crushing": crushing, "sea": self.at_sea}
+        crushing, tapers = self.ice.crushing_pressure is not None, any(structure.tapers for structure in self.structure)
+        return {"model": self.contact.model, "crushing": crushing, "tapers": tapers, "sea": self.at_sea}
 
     @property
     def at_sea(self) -> bool:

@@ -20,7 +20,7 @@ from dilatedem.jit import by_type
 from dilatedem.state.setting import CONTACT_SETTINGS
 
 MODELS = {"liu2015": liu2015, "consistent": consistent}
-LAWS = {setting: MODELS[model] for (model, *_), setting in CONTACT_SETTINGS.items()}
+LAWS = {setting: MODELS[model] for (model, _), setting in CONTACT_SETTINGS.items()}
 
 press = by_type(liu2015.press, {setting: law.press for setting, law in LAWS.items()})
 carry = by_type(liu2015.carry, {setting: law.carry for setting, law in LAWS.items()})

@@ -98,13 +98,13 @@ def run_case(
 
 
 def compile_kernels(
-    threads: int = 1, model: str = "liu2015", damping_law: str = "viscous", crushing: bool = False, sea: bool = False
+    threads: int = 1, model: str = "liu2015", crushing: bool = False, tapers: bool = False, sea: bool = False
 ) -> None:
     """Compile what a run with such `Case.laws` needs, or load it from the cache."""
     case = Case.model_validate({
         "field": {"source": "bodies"}, "body": [{"vertices": [[0.0, 0.0, 0.0]], "dilated_radius": 0.1}],
-        "contact": {"model": model, "damping_law": damping_law}, "ice": {"crushing_pressure": 1.0e6} if crushing else {},
-        "water": {"added_mass": sea},
+        "contact": {"model": model}, "ice": {"crushing_pressure": 1.0e6} if crushing else {}, "water": {"added_mass": sea},
+        "structure": [{"kind": "cone"}] if tapers else [],
     })  # fmt: skip
     Simulation.of_case(case, threads=threads).advance(1)
 

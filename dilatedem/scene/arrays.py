@@ -3,7 +3,7 @@
 import numpy as np
 
 from dilatedem.case.schema import Case
-from dilatedem.contact.consistent.dashpot import own_damping
+from dilatedem.contact.consistent.dashpot import touch_damping
 from dilatedem.errors import CaseError
 from dilatedem.geometry.outline import perimeter
 from dilatedem.geometry.shapes import Hulls, pack_hulls, pack_shapes, tapered
@@ -77,9 +77,9 @@ def _held(scene: Scene) -> np.ndarray:
 def _contact_setting(case: Case) -> ContactSetting:
     contact = case.contact
     pressure, exponent = case.ice.crushing_pressure, case.ice.crushing_exponent
-    setting = CONTACT_SETTINGS[contact.model, contact.damping_law, pressure is not None]
-    damping = own_damping(setting, contact.damping)
-    return setting(damping, contact.stiffness_ratio, *([] if pressure is None else [pressure, exponent]))
+    setting, touch = CONTACT_SETTINGS[contact.model, pressure is not None], contact.damping_law == "touch"
+    damping = touch_damping(contact.damping) if touch else contact.damping
+    return setting(damping, touch, contact.stiffness_ratio, *([] if pressure is None else [pressure, exponent]))
 
 
 def _require_one_image(case: Case, reach: np.ndarray, cores: list[Part], periodic: tuple[bool, bool]) -> None:

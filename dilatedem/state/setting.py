@@ -5,10 +5,11 @@ from typing import NamedTuple
 
 
 class ContactSetting(NamedTuple):
-    """Parameters of contact. Each model, with each dashpot, with and without crushing, has a class of its own, by which
-    `contact.laws` and `contact.crushing` choose: only what a case uses is compiled."""
+    """Parameters of contact. Each model, with and without crushing, has a class of its own, by which `contact.laws` and
+    `contact.crushing` choose: only what a case uses is compiled."""
 
     damping: float  # zeta_n of Liu 2015, Eq. (4): the dashpot over the critical one, where an approach ends
+    touch: bool  # whether the dashpot vanishes at touch
     stiffness_ratio: float  # r_ns: tangential over normal stiffness
     crushing_pressure: float = inf  # Pa, on 1 m2; and its exponent: of settings whose ice crushes
     crushing_exponent: float = 0.0
@@ -30,27 +31,15 @@ class ConsistentCrushingSetting(ConsistentSetting):
     __slots__ = ()
 
 
-class ConsistentTouchSetting(ContactSetting):
-    """`consistent` with a dashpot that vanishes at touch."""
-
-    __slots__ = ()
-
-
-class ConsistentTouchCrushingSetting(ConsistentTouchSetting):
-    __slots__ = ()
-
-
-#: by the names of the model and of its damping law in a case, and whether its ice crushes
+#: by the name of the model in a case, and whether its ice crushes
 CONTACT_SETTINGS = {
-    ("liu2015", "viscous", False): Liu2015Setting,
-    ("liu2015", "viscous", True): Liu2015CrushingSetting,
-    ("consistent", "viscous", False): ConsistentSetting,
-    ("consistent", "viscous", True): ConsistentCrushingSetting,
-    ("consistent", "touch", False): ConsistentTouchSetting,
-    ("consistent", "touch", True): ConsistentTouchCrushingSetting,
+    ("liu2015", False): Liu2015Setting,
+    ("liu2015", True): Liu2015CrushingSetting,
+    ("consistent", False): ConsistentSetting,
+    ("consistent", True): ConsistentCrushingSetting,
 }
 #: those whose ice crushes
-CRUSHING_SETTINGS = tuple(setting for (*_, crushes), setting in CONTACT_SETTINGS.items() if crushes)
+CRUSHING_SETTINGS = tuple(setting for (_, crushes), setting in CONTACT_SETTINGS.items() if crushes)
 
 
 class Surroundings(NamedTuple):

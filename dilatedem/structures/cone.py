@@ -67,6 +67,10 @@ class Cone(Structure):
         return self.waterline_radius - self._narrowing * height
 
     @property
+    def tapers(self) -> bool:
+        return self._narrowing != 0.0
+
+    @property
     def place(self) -> np.ndarray:
         return np.array([*self.center, 0.0])
 

@@ -122,6 +122,11 @@ class Structure(Table):
         """The structures that it is made of, each with answers and a record of its own; none where it is one by itself."""
         return ()
 
+    @property
+    def tapers(self) -> bool:
+        """Whether a part of it is exactly conical: the search then knows bodies whose dilation changes along them."""
+        return any(member.tapers for member in self.members)
+
     def names(self) -> list[str]:
         """Under which its loads are recorded: its own, then those of its members."""
         return [self.name, *(member_name(self.name, member.name) for member in self.members)]

@@ -13,9 +13,8 @@ from collections.abc import Callable
 from math import fsum, sqrt
 
 from dilatedem.contact.consistent.line import HEAVY, INNER, LIGHT, OUTER
-from dilatedem.jit import by_type, item
+from dilatedem.jit import item
 from dilatedem.numerics.root import bracketed_root
-from dilatedem.state.setting import ConsistentTouchCrushingSetting, ConsistentTouchSetting, ContactSetting
 
 #: places and weights of four points of Gauss and Legendre on 0..1
 GAUSS = tuple((0.5 + 0.5 * x, 0.5 * w) for x, w in ((-OUTER, LIGHT), (-INNER, HEAVY), (INNER, HEAVY), (OUTER, LIGHT)))
@@ -28,24 +27,17 @@ TOLERANCE = 1e-12
 
 
 @item
-def _viscous(contact, elastic, stored, approach):
+def dashpot(contact, elastic, stored, approach):
+    """c [N s/m] of a contact setting, whose damping is xi or z; elastic: F [N]; stored: W/m* [m2/s2]; approach: (dW/dt)/F [m/s]."""
+    if contact.touch:
+        return 2.0 * contact.damping * elastic / sqrt(approach * approach + 2.0 * stored)
     return contact.damping * sqrt(2.0 * stored) * (1.0 / stored) * elastic  # root and division beside each other
 
 
-@item
-def _vanishing(contact, elastic, stored, approach):
-    return 2.0 * contact.damping * elastic / sqrt(approach * approach + 2.0 * stored)
-
-
-#: dashpot(contact, elastic, stored, approach): c [N s/m] by the type of the contact setting, whose damping is xi or z; elastic: F
-#: [N]; stored: W/m* [m2/s2]; approach: (dW/dt)/F [m/s]
-dashpot = by_type(_viscous, {ConsistentTouchSetting: _vanishing, ConsistentTouchCrushingSetting: _vanishing})
-
-
-def own_damping(setting: type[ContactSetting], damping: float) -> float:
-    """The damping of a contact setting with the restitution that `damping` gives with `viscous`: z of `touch`."""
-    if not issubclass(setting, ConsistentTouchSetting) or damping == 0.0:
-        return damping
+def touch_damping(damping: float) -> float:
+    """The damping z of `touch` with the restitution that `damping` gives with `viscous`."""
+    if damping == 0.0:
+        return 0.0
     loss = viscous_loss(damping)
     most = MOST * damping * (1.0 + damping)
     return bracketed_root(lambda z: touch_loss(z) - loss, 0.0, most, absolute=TOLERANCE * damping, relative=TOLERANCE)

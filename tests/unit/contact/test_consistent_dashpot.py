@@ -6,11 +6,9 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from dilatedem.contact.consistent.dashpot import own_damping, touch_loss, viscous_loss
-from dilatedem.state.setting import CONTACT_SETTINGS
+from dilatedem.contact.consistent.dashpot import touch_damping, touch_loss, viscous_loss
 from tests.verification.normal_impact import restitution_of_oscillator
 
-VISCOUS, TOUCH = (CONTACT_SETTINGS["consistent", law, False] for law in ("viscous", "touch"))
 #: damping of the case -> a = 2 z
 FACTORS = {0.05: 0.2275, 0.1: 0.4369, 0.2: 0.7970, 0.3: 1.0871, 0.36: 1.2579, 0.5: 1.6792, 0.7: 2.3268, 1.0: 3.3787}
 
@@ -39,7 +37,7 @@ def rebound(factor: float, exponent: float, speed: float) -> float:
 
 @pytest.mark.parametrize(("damping", "factor"), FACTORS.items())
 def test_both_laws_have_one_restitution(damping, factor):
-    a = 2.0 * own_damping(TOUCH, damping)
+    a = 2.0 * touch_damping(damping)
     assert a == pytest.approx(factor, abs=6e-5)
     assert exp(-viscous_loss(damping)) == pytest.approx(restitution_of_oscillator(damping), rel=1e-6)
     assert exp(-touch_loss(0.5 * a)) == pytest.approx(restitution_of_oscillator(damping), rel=1e-6)
@@ -48,7 +46,7 @@ def test_both_laws_have_one_restitution(damping, factor):
 @pytest.mark.parametrize("damping", [0.1, 0.36, 1.0])
 @pytest.mark.parametrize(("exponent", "speed"), [(1.0, 0.01), (1.5, 1.0), (1.5, 3.0), (2.0, 0.2)])
 def test_restitution_is_that_of_every_power_law_and_speed(damping, exponent, speed):
-    rebounds = rebound(2.0 * own_damping(TOUCH, damping), exponent, speed)
+    rebounds = rebound(2.0 * touch_damping(damping), exponent, speed)
     assert rebounds == pytest.approx(restitution_of_oscillator(damping), rel=1e-5)
 
 
@@ -56,11 +54,10 @@ def test_the_loss_of_an_overdamped_contact():
     for damping in (1.0001, 2.0, 30.0, 100.0):
         root = sqrt(damping**2 - 1.0)
         assert viscous_loss(damping) == pytest.approx(2.0 * damping * acosh(damping) / root, rel=1e-5)
-        assert touch_loss(own_damping(TOUCH, damping)) == pytest.approx(viscous_loss(damping), rel=1e-9)
+        assert touch_loss(touch_damping(damping)) == pytest.approx(viscous_loss(damping), rel=1e-9)
 
 
-def test_the_damping_of_viscous_is_the_cases_and_none_is_none():
-    assert [own_damping(VISCOUS, damping) for damping in (0.0, 0.36, 100.0)] == [0.0, 0.36, 100.0]
-    assert own_damping(TOUCH, 0.0) == 0.0
+def test_no_damping_is_none_and_a_weak_one_is_in_proportion():
+    assert touch_damping(0.0) == 0.0
     weak = 1e-9
-    assert own_damping(TOUCH, weak) == pytest.approx(0.75 * np.pi * weak, rel=1e-6)
+    assert touch_damping(weak) == pytest.approx(0.75 * np.pi * weak, rel=1e-6)

@@ -23,7 +23,7 @@ def test_a_law_leaves_the_memory_of_others_alone(model):
 
 
 def test_every_model_of_a_case_has_a_law_with_memory_of_its_own():
-    assert set(CONTACT_SETTINGS.values()) == set(LAWS) and {model for model, *_ in CONTACT_SETTINGS} == set(MODELS)
+    assert set(CONTACT_SETTINGS.values()) == set(LAWS) and {model for model, _ in CONTACT_SETTINGS} == set(MODELS)
     names = [name for law in set(LAWS.values()) for name in law.MEMORY]
     assert len(set(names)) == len(names)
     assert set(names) <= {column.name for column in COLUMNS if column.group == MEMORY}
