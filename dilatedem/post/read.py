@@ -87,9 +87,9 @@ class RunFolder:
 
     @property
     def flows(self) -> dict[str, tuple[float, float]]:
-        """What moves the ice, by name, and its velocity [m/s], that at t = 0 where a table tells it; without what stands still."""
+        """What moves the ice, by name, and its velocity [m/s], of a table that at the start; without what stands still."""
         told = {"current": self.case.get("water", {}), "wind": self.case.get("wind", {})}
-        names = {what: f"{what} at t = 0" if "velocity_table" in table else what for what, table in told.items()}
+        names = {what: f"{what} at the start" if "velocity_table" in table else what for what, table in told.items()}
         return {names[what]: flow for what, flow in (("current", self.current), ("wind", self.wind)) if any(flow)}
 
     def _velocity_of(self, what: str) -> tuple[float, float]:
