@@ -16,10 +16,13 @@ _MOST_DIGITS = 9
 # Numbers that people type and TOML refuses: a bare point before or after the digits, leading zeros.
 _LOOSE_NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?")
 
+# What may tell how water or air flow.
+_TOLD = {"velocity", "velocity_file", "velocity_table"}
 # Keys of which a case has one: to give the one is to take back the other.
 _ALTERNATIVES: dict[Path, tuple[str, ...]] = {
     ("field", "floe_size"): ("floe_count",),
     ("field", "floe_count"): ("floe_size",),
+    **{(flow, name): tuple(_TOLD - {name}) for flow in ("water", "wind") for name in _TOLD},
 }
 #: the same of a distribution of floe sizes, by its kind
 _IMPLIED = {"power_law": ("floe_size", "floe_count")}

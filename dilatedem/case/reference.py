@@ -25,7 +25,7 @@ from it; `dilatedem schema` prints this page for programs, as JSON Schema.
 
 On the command line `--set KEY=VALUE` overrides any key, `--set water.velocity=[0.5,0]`, or an item of a list
 by its number or name: `--set water.velocity.0=0.5`, `--set structure.pile.radius=3`. Setting
-`field.floe_size` replaces a `field.floe_count`, and the other way round.
+`field.floe_size` replaces a `field.floe_count`, and the other way round; so do the velocity of water or wind and its table.
 
 Beside what stands under *allowed*, numbers have a range by their unit, wider than anything in use.
 In size they are at most {most}; {other} without a unit.

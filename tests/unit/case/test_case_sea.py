@@ -78,6 +78,17 @@ def test_a_file_that_is_no_such_table_is_named(tmp_path, text, said):
     assert "water.velocity_file: " in str(fault.value) and said in str(fault.value)
 
 
+def test_a_table_on_the_command_line_takes_the_place_of_a_velocity_and_the_other_way_round(tmp_path):
+    steady, told = tmp_path / "steady.toml", tmp_path / "told.toml"
+    steady.write_text("[water]\nvelocity = [0.3, 0.0]\n")
+    case = load(steady, ["water.velocity_table=[[0.0, 0.1, 0.0], [5.0, 0.2, 0.0]]"])
+    assert case.water.velocity == (0.1, 0.0)
+    told.write_text(write.dump(case))
+    assert load(told, ["water.velocity=[0.6, 0.0]"]).water.velocity_table is None
+    (tmp_path / "current.csv").write_text("time_s,u_m_s,v_m_s\n0,0.7,0\n")
+    assert load(told, ["water.velocity_file=current.csv"]).water.velocity == (0.7, 0.0)
+
+
 def test_overrides_reach_waves():
     case = case_from({"wave": [WAVE]}, {"wave.0.period": 6.0})
     assert case.wave[0].period == 6.0 and case.at_sea
