@@ -26,11 +26,17 @@ PAIRS = {"ice_ice": "floe on floe", "ice_structure": "floe on structure"}
 
 LIMITS = (
     "Floes are rigid: they do not crush, split, raft or ridge, though some of these peaks would break real ice.",
-    "The water is a uniform current without waves, and the ice does not change its flow. Its drag acts on "
-    "the whole wetted surface of a floe: about ten times the drag of a formula for the frontal area.",
     "Peaks last tens of milliseconds, and their height and number vary from one random field to the next: "
     "judge by several seeds, not by one run.",
     "Times of hits above their threshold are counted in whole windows of forces.csv, too long by up to two windows each.",
+)
+LIMITS_OF_CURRENT = "The water is a current without waves, and the ice does not change its flow."
+LIMITS_OF_WAVES = (
+    "Waves ride on a current; ice and structures change neither, and each floe lies in one plane of the surface: floes that are "
+    "not short against the waves feel too much of them."
+)
+LIMITS_OF_WETTED = (
+    " Its drag acts on the whole wetted surface of a floe: about ten times the drag of a formula for the frontal area."
 )
 LIMITS_OF_HELD = "The structure does not give way; its own compliance would soften the peaks."
 LIMITS_OF_LIU2015 = (
@@ -297,6 +303,8 @@ def version_rows(summary: dict[str, Any]) -> Rows:
 def limits(run: RunFolder) -> list[str]:
     """What the reader must not expect of these numbers."""
     sentences = list(LIMITS)
+    flow = LIMITS_OF_WAVES if run.case.get("wave") else LIMITS_OF_CURRENT
+    sentences.insert(1, flow + (LIMITS_OF_WETTED if run.case.get("water", {}).get("drag", "wetted") == "wetted" else ""))
     if not run.motion:
         sentences.insert(1, LIMITS_OF_HELD)
     if run.case.get("contact", {}).get("model", "liu2015") == "liu2015":
