@@ -192,7 +192,7 @@ def test_what_stands_in_the_way_is_seen_across_a_periodic_side():
     (["domain.y_boundary=wall"], "the ice drifts along y, too, by 0.2 m/s (water.velocity), out of the lane that it enters in; "
                                  'take domain.y_boundary = "periodic", or turn the scene'),
     (["domain.y_boundary=inflow"], 'domain.y_boundary = "inflow": ice can enter along one axis only'),
-    (["field.source=bodies"], 'field.source must not be "bodies"'),
+    (["field.source=bodies"], 'field.source must be "voronoi"'),
     (["time.error_check=true"], 'time.error_check = true: must be false where a boundary is "inflow"'),
 ])  # fmt: skip
 def test_cases_in_which_no_ice_can_enter_are_refused(changes, sentence):
