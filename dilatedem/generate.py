@@ -55,7 +55,7 @@ def generate(case: Case, out: Path, *, overwrite: bool = False) -> dict:
             [shape.outer for shape in scene.shapes],
             scene.position,
             scene.orientation,
-            {"body": np.arange(scene.count), "floe_size": np.sqrt(scene.plan_area)},
+            {"body": np.arange(scene.count), "floe_size": np.sqrt(scene.floe_area())},
             order=scene.order,
         )
         write_bytes(out / "field.png", draw_picture())
@@ -102,14 +102,14 @@ def _picture(case: Case, placed: Scene) -> Callable[[], bytes]:
         axes = figure.add_subplot()
         plan.dress(axes, scene, view, water=canvas.WATER)
         plan.draw_domain(axes, scene)
-        size = np.sqrt(placed.plan_area)
+        size = np.sqrt(placed.floe_area())
         style = {"cmap": SIZE_MAP, **_scale(size), "edgecolors": canvas.ICE_EDGE, "linewidths": 0.4}
         floes = plan.draw_floes(axes, scene, view, outlines, array=size, **style)
         plan.draw_structures(axes, scene)
         plan.draw_flows(axes, scene)
         bar = figure.colorbar(floes, ax=axes, shrink=0.85, pad=0.02)
         bar.set_label("Floe size, root of the plan area (m)")
-        axes.set_title(_title(case, placed.count))
+        axes.set_title(_title(case, placed))
         return canvas.Drawing("field", "Ice field", "", figure)
 
     drawing = draw()
@@ -129,8 +129,8 @@ def _scale(size: np.ndarray) -> dict:
     return {"clim": (0.9 * size.mean(), 1.1 * size.mean())}
 
 
-def _title(case: Case, count: int) -> str:
-    floes = count - len(case.body)
+def _title(case: Case, placed: Scene) -> str:
+    floes = len(placed.field.floe_area)
     origin = f" of {Path(case.field.file).name}" if case.field.source == "file" else ""
     parts = [] if case.field.source == "bodies" else [f"{floes} floes{origin}"]
     if case.body:

@@ -67,6 +67,12 @@ class IceField(Table):
     tolerance: NonNegative = key(
         0.02, "m", "Distance from an outline of the file within which points of it are left out; those that stay do not move."
     )
+    not_convex: Literal["parts", "hull"] = key(
+        "parts",
+        "",
+        "Outlines of the file that are not convex: `parts` cuts them into convex parts that move as one rigid floe, `hull` takes "
+        "their hulls.",
+    )
     smallest: NonNegative = key(
         0.0,
         "m",

@@ -190,7 +190,7 @@ class Case(Table):
         drift = "water.velocity" if self.ice.initial_velocity == "current" else "ice.initial_velocity"
         found += inflow_faults(self.domain, self.field, self.ice.thickness_spread, self.ice_velocity, drift)
         found += wave_faults(self.wave, self.water.enabled, self.gravity.acceleration)
-        return [*found, *self._front_faults(), *self._until_faults()]
+        return [*found, *self._field_faults(), *self._until_faults()]
 
     @property
     def ice_velocity(self) -> tuple[float, float, float]:
@@ -239,10 +239,13 @@ class Case(Table):
             return [(("time", "error_check"), text)]
         return []
 
-    def _front_faults(self) -> list[Fault]:
+    def _field_faults(self) -> list[Fault]:
         closed = ("periodic", "wall")
         if self.field.front == "ragged" and self.domain.x_boundary in closed and self.domain.y_boundary in closed:
             return [(("field", "front"), 'must be "straight" where no side is open: ice ends nowhere')]
+        if self.water.added_mass and self.field.source == "file" and self.field.not_convex == "parts":
+            text = 'must be false where floes may be of several parts; or take field.not_convex = "hull"'
+            return [(("water", "added_mass"), text)]
         return []
 
     def _until_faults(self) -> list[Fault]:

@@ -3,7 +3,7 @@
 import numpy as np
 
 from dilatedem.events.event import Event
-from dilatedem.events.repack import without
+from dilatedem.events.repack import whole_floes, without
 from dilatedem.scene.inflow import course_of
 
 #: s between two looks for bodies that have left
@@ -32,7 +32,7 @@ def leave(simulation) -> int:
             sides[axis, int(course_of(case).upstream > 0)] = np.inf
     position, reach = simulation.state.bodies.position[:count, :2], model.shapes.reach[:count, None]
     beyond = (-position - sides[:, 0] > reach) | (position - sides[:, 1] > reach)
-    gone = beyond.any(axis=1) & (model.solids.inverse_mass[:count] > 0.0)
+    gone = whole_floes(beyond.any(axis=1) & (model.solids.inverse_mass[:count] > 0.0), model)
     if gone.any():
         without(simulation, gone)
     return int(np.count_nonzero(gone))

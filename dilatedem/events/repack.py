@@ -6,7 +6,7 @@ Bodies keep their ids; contacts of bodies that stay keep their memory, and the l
 import numpy as np
 
 from dilatedem.geometry.packing import selected, together
-from dilatedem.state.bodies import Bodies, Ids
+from dilatedem.state.bodies import Bodies, Ids, joined_rows
 from dilatedem.state.model import Model
 from dilatedem.state.pairs import PackedPairs, Pairs, in_use, unpacked
 
@@ -28,6 +28,14 @@ def without(simulation, gone: np.ndarray) -> None:
     simulation.adopt(reduced)
     simulation.evaluate()
     state.ledger.carried_out[0] += before - float(state.ledger.instant.sum())
+
+
+def whole_floes(chosen: np.ndarray, model: Model) -> np.ndarray:
+    """Those of the `chosen` (floating,) bool that are no part of a floe of which another part is not."""
+    entire = chosen.copy()
+    for first, last in model.joined:
+        entire[first:last] = chosen[first:last].all()
+    return entire
 
 
 def joined(simulation, came: Model, bodies: Bodies, ids: np.ndarray) -> float:
@@ -57,6 +65,7 @@ def of_rows(model: Model, rows: np.ndarray) -> Model:
     return model._replace(
         floating=floating,
         structure_of=model.structure_of[rows],
+        joined=joined_rows(model.solids.floe[rows]),
         shapes=selected(model.shapes, rows),
         hulls=selected(model.hulls, rows[:floating]),
         solids=type(model.solids)(*(values[rows] for values in model.solids)),
@@ -64,13 +73,18 @@ def of_rows(model: Model, rows: np.ndarray) -> Model:
 
 
 def _together(model: Model, came: Model, rows: np.ndarray) -> Model:
-    """One model of the bodies of two; rows: what stands where, when those of the second are counted behind those of the first."""
+    """One model of the bodies of two; rows: what stands where, when those of the second are counted behind those of the first.
+
+    Those that came are floes of one part.
+    """
+    solids = type(model.solids)(*(np.concatenate(both)[rows] for both in zip(model.solids, came.solids, strict=True)))
     return model._replace(
         floating=model.floating + came.floating,
         structure_of=np.concatenate([model.structure_of, came.structure_of])[rows],
+        joined=joined_rows(solids.floe),
         shapes=selected(together(model.shapes, came.shapes), rows),
         hulls=together(model.hulls, came.hulls),
-        solids=type(model.solids)(*(np.concatenate(both)[rows] for both in zip(model.solids, came.solids, strict=True))),
+        solids=solids,
     )
 
 

@@ -35,6 +35,20 @@ Groups = list[tuple[np.ndarray, np.ndarray]]  # cells (m,) of n sides and their 
 
 
 @dataclass(frozen=True, eq=False)
+class Parts:
+    """Outlines that are parts of floes.
+
+    floe   (outlines,) the floe that each is part of; its parts come one after another
+    every  (outlines and those left out,) the same before some were left out
+    inner  (outlines, 3) length [m] of an outline's sides that lie within its floe, and its first moments about the origin [m2]
+    """
+
+    floe: np.ndarray
+    every: np.ndarray
+    inner: np.ndarray
+
+
+@dataclass(frozen=True, eq=False)
 class FloeField:
     """Floes in plan.
 
@@ -44,6 +58,7 @@ class FloeField:
     factor         by which the cells were shrunk
     concentration  dilated plan area of all floes, those left out included, over the area of the domain
     kept           (floes and those left out,) which were not left out for touching an obstacle
+    parts          of floes of several convex parts: which outline is part of which floe; None: each is one by itself
     """
 
     outlines: plan.Outlines
@@ -52,11 +67,20 @@ class FloeField:
     factor: float
     concentration: float
     kept: np.ndarray
+    parts: Parts | None = None
 
     @property
     def left_out(self) -> int:
         """Number of floes left out."""
-        return int(np.count_nonzero(~self.kept))
+        return len(np.unique(self.parts.every[~self.kept])) if self.parts else int(np.count_nonzero(~self.kept))
+
+    @property
+    def floe_area(self) -> np.ndarray:
+        """(floes,) plan area of each floe, its parts together [m2]."""
+        if not self.parts:
+            return self.plan_area
+        floe = np.unique(self.parts.floe, return_inverse=True)[1]
+        return np.bincount(floe, self.plan_area, int(floe.max(initial=-1)) + 1)
 
 
 def ice_field(

@@ -11,6 +11,7 @@ import numpy as np
 import shapely
 
 from dilatedem.field.drawing import Drawing
+from dilatedem.field.partition import Part, convex_parts
 from dilatedem.field.placement import VANISHING, dilated_areas
 from dilatedem.geometry import outline as plan
 from dilatedem.numerics.plain import dot, norm
@@ -45,6 +46,7 @@ CHANGES = {
     "holes": "outlines with holes filled",
     "thinned": "outlines thinned",
     "hulls": "outlines that are not convex replaced by their hulls",
+    "parts": "outlines that are not convex cut into convex parts",
     "overlaps": "outlines cut where they overlap",
     "covered": "outlines left out that others cover",
     "slivers": "outlines left out that are too small",
@@ -90,21 +92,40 @@ class Report:
         return [head, *lines]
 
 
+@dataclass(frozen=True, eq=False)
+class Survey:
+    """Floes in plan, of one or several convex parts each.
+
+    outlines    of all parts [m], those of a floe one after another
+    floe        (parts,) the floe that each is part of, from 0 on
+    inner       (parts, 3) length [m] of the sides that lie within the floe, and its first moments about the origin [m2]
+    properties  of each floe, as far as they are given
+    """
+
+    outlines: plan.Outlines
+    floe: np.ndarray
+    inner: np.ndarray
+    properties: list[dict]
+    report: Report
+
+
 @dataclass(frozen=True)
 class Wishes:
     """How areas are taken: metres per unit; where the file's origin goes (2,) [m], None = the middle of all areas comes to that of
-    the domain; tolerance [m] within which points are left out; size [m], root of the area, of the smallest floe."""
+    the domain; tolerance [m] within which points are left out; size [m], root of the area, of the smallest floe; whether outlines
+    that are not convex are cut into parts, or become their hulls."""
 
     scale: float
     origin: tuple[float, float] | None
     tolerance: float
     smallest: float
+    parts: bool
 
 
 def surveyed(
     drawing: Drawing, wishes: Wishes, size: np.ndarray, periodic: Sequence[bool], walls: Sequence[bool], radius: float
-) -> tuple[plan.Outlines, list[dict], Report]:
-    """Convex outlines [m] of floes in a domain of `size` (2,) [m], apart from each other; the properties of each; the report.
+) -> Survey:
+    """The floes of a drawing in a domain of `size` (2,) [m], apart from each other.
 
     walls: whether sides along x and along y are walls, which no floe may touch; radius: dilated radius [m]: floes that are narrower
     than their round edges are left out.
@@ -112,14 +133,18 @@ def surveyed(
     report = Report(drawing.entries, unused=drawing.unused)
     polygons, owner = _polygons(drawing, wishes, report)
     polygons = _thinned(polygons, wishes.tolerance, report)
-    polygons = _convex(polygons, report)
+    if not wishes.parts:
+        polygons = _convex(polygons, report)
     polygons, stay = _at_home(polygons, size, periodic, walls, report)
     owner = owner[stay]
     polygons = _apart(polygons, np.where(periodic, size, 0.0), report)
-    outlines, stay = _wide_enough(polygons, wishes.smallest, radius, report)
-    report.floes, report.points = len(outlines), (report.points[0], len(outlines.points))
+    parts, floe = _wide_enough(polygons, wishes.smallest, radius, report)
+    stay, floe = np.unique(floe, return_inverse=True)
+    outlines = plan.Outlines.of([part.outline for part in parts])
+    report.floes, report.points = len(stay), (report.points[0], len(outlines.points))
     report.area = (report.area[0], float(sum(plan.area(outline) for outline in outlines)))
-    return outlines, [drawing.outlines[number].properties for number in owner[stay]], report
+    properties = [drawing.outlines[number].properties for number in owner[stay]]
+    return Survey(outlines, floe, np.array([part.inner for part in parts]).reshape(-1, 3), properties, report)
 
 
 def _polygons(drawing: Drawing, wishes: Wishes, report: Report) -> tuple[np.ndarray, np.ndarray]:
@@ -162,11 +187,14 @@ def _thinned(polygons: np.ndarray, tolerance: float, report: Report) -> np.ndarr
 
 def _convex(polygons: np.ndarray, report: Report) -> np.ndarray:
     """Hulls of those that are not convex."""
-    hulls = shapely.convex_hull(polygons)
-    before, after = shapely.area(polygons), shapely.area(hulls)
-    bent = after > (1.0 + ROUND_OFF) * before
-    report.changes["hulls"].of(before[bent], after[bent])
+    hulls, bent = shapely.convex_hull(polygons), _is_bent(polygons)
+    report.changes["hulls"].of(shapely.area(polygons[bent]), shapely.area(hulls[bent]))
     return hulls
+
+
+def _is_bent(polygons: np.ndarray) -> np.ndarray:
+    """(n,) whether polygons are not convex."""
+    return shapely.area(shapely.convex_hull(polygons)) > (1.0 + ROUND_OFF) * shapely.area(polygons)
 
 
 def _at_home(
@@ -184,10 +212,11 @@ def _at_home(
 
 
 def _apart(polygons: np.ndarray, period: np.ndarray, report: Report) -> np.ndarray:
-    """The same convex polygons, which no longer share anything; empty ones are covered by others.
+    """The same polygons, which no longer share anything; empty ones are covered by others.
 
-    Of two that overlap each keeps what lies on its side of the line through the two points where the outlines cross, and stays
-    convex. Where they share more than MOST_SHARED of the smaller one, or cross more often, that one becomes empty.
+    Of two convex ones that overlap each keeps what lies on its side of the line through the points where the outlines cross: both
+    stay convex. Of others the smaller one loses what they share, and what that cuts off. Where they share more than MOST_SHARED of
+    the smaller one, or convex ones cross more often, it becomes empty.
     """
     apart = polygons.copy()
     for i, j, shift in _overlapping(polygons, period):
@@ -195,7 +224,8 @@ def _apart(polygons: np.ndarray, period: np.ndarray, report: Report) -> np.ndarr
         shared, least = shapely.area(shapely.intersection(a, b)), min(shapely.area(a), shapely.area(b))
         if shared <= NEGLIGIBLE * least:
             continue
-        halves = _halves(a, b) if shared <= MOST_SHARED * least else None
+        kept = _halves if not _is_bent(np.array([a, b])).any() else _without_shared
+        halves = kept(a, b) if shared <= MOST_SHARED * least else None
         if halves is None:
             apart[i if shapely.area(a) <= shapely.area(b) else j] = shapely.Polygon()
         else:
@@ -229,6 +259,14 @@ def _halves(a: shapely.Geometry, b: shapely.Geometry) -> tuple[shapely.Geometry,
     return _side(a, first, second, rests[0]), _side(b, first, second, rests[1])
 
 
+def _without_shared(a: shapely.Geometry, b: shapely.Geometry) -> tuple[shapely.Geometry, shapely.Geometry]:
+    """Two polygons, the smaller one without what they share; of several pieces it keeps the largest."""
+    if shapely.area(a) < shapely.area(b):
+        return _without_shared(b, a)[::-1]
+    pieces = shapely.get_parts(shapely.difference(b, a))
+    return a, shapely.polygons(pieces[shapely.area(pieces).argmax()].exterior)
+
+
 def _side(polygon: shapely.Geometry, first: np.ndarray, second: np.ndarray, rest: shapely.Geometry) -> shapely.Geometry:
     """The part of a convex polygon on that side of the line through two points (2,) [m] on which `rest` lies."""
     along = (second - first) / norm(second - first)
@@ -241,23 +279,35 @@ def _side(polygon: shapely.Geometry, first: np.ndarray, second: np.ndarray, rest
     return shapely.intersection(polygon, shapely.Polygon(corners))
 
 
-def _wide_enough(polygons: np.ndarray, smallest: float, radius: float, report: Report) -> tuple[plan.Outlines, np.ndarray]:
-    """Outlines of those that are no smaller than `smallest`, and wider than their round edges, and their numbers."""
-    found, number = [], []
-    for k, polygon in enumerate(polygons):
-        if shapely.area(polygon) < smallest**2 or polygon.is_empty:
-            continue
-        try:
-            found.append(plan.prepare(shapely.get_coordinates(polygon.exterior)))
-        except ValueError:  # thinner than round-off
-            continue
-        number.append(k)
-    outlines = plan.Outlines.of(found)
+def _wide_enough(polygons: np.ndarray, smallest: float, radius: float, report: Report) -> tuple[list[Part], np.ndarray]:
+    """Convex parts of those polygons that are no smaller than `smallest`, as far as they are wider than their round edges, and the
+    number of the polygon that each is part of."""
+    large = np.flatnonzero((shapely.area(polygons) >= smallest**2) & ~shapely.is_empty(polygons))
+    bent = large[_is_bent(polygons[large])]
+    cut = [(number, part) for number in large for part in (convex_parts if number in bent else _whole)(polygons[number])]
+    found = [(number, Part(outline, part.cuts)) for number, part in cut if (outline := _prepared(part.outline)) is not None]
+    outlines = plan.Outlines.of([part.outline for _, part in found])
     _, narrow = dilated_areas(outlines.by_sides(), len(outlines), 1.0 - VANISHING, radius)
-    stay = np.array(number, np.int64)[~narrow]
-    areas = shapely.area(np.delete(polygons, stay))
-    report.changes["slivers"].of(areas[areas > 0.0], np.zeros(int((areas > 0.0).sum())))
-    return outlines.where(~narrow), stay
+    parts = [part for (_, part), left_out in zip(found, narrow, strict=True) if not left_out]
+    number = np.array([number for number, _ in found], np.int64)[~narrow]
+    gone = np.setdiff1d(np.flatnonzero(~shapely.is_empty(polygons)), number)
+    report.changes["slivers"].of(shapely.area(polygons[gone]), np.zeros(len(gone)))
+    areas = np.bincount(number, [plan.area(part.outline) for part in parts], len(polygons))
+    bent = np.intersect1d(bent, number)
+    report.changes["parts"].of(shapely.area(polygons[bent]), areas[bent])
+    return parts, number
+
+
+def _whole(polygon: shapely.Geometry) -> list[Part]:
+    return [Part(shapely.get_coordinates(polygon.exterior), np.zeros((0, 2, 2)))]
+
+
+def _prepared(outline: np.ndarray) -> np.ndarray | None:
+    """The corners of a convex outline, counter-clockwise; None for one that is thinner than round-off."""
+    try:
+        return plan.prepare(outline)
+    except ValueError:
+        return None
 
 
 def _moved(shapes: Any, shift: np.ndarray) -> Any:

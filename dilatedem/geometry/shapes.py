@@ -82,7 +82,8 @@ class Hulls(NamedTuple):
     loop_start: np.ndarray  # (f+1,)
     loop: np.ndarray
     prism: np.ndarray  # (m,) whether the hull is a right prism along its z axis
-    plan: np.ndarray  # (m, 8) of a prism: area, its second moments Ixx, Iyy, Ixy, perimeter, its first moments Sx, Sy, reach
+    plan: np.ndarray  # (m, 10) of a prism: area, its second moments Ixx, Iyy, Ixy, perimeter, its first moments Sx, Sy, reach, and
+    # the area's first moments, zero unless it is part of a floe of several
     height: np.ndarray  # (m, 2) z of the prism's bottom and top, m
     effective_radius: np.ndarray  # (m,) mean distance of the outer vertices from the centroid, m: r_eff of Liu 2015, Eq. (27)
 
@@ -145,7 +146,7 @@ def pack_hulls(shapes: Sequence[BodyShape], order: np.ndarray | None = None) -> 
     """Pack the outer polyhedra of the bodies that float; `order` as in pack_shapes."""
     packed = pack_polyhedra([shape.outer for shape in shapes], order)
     count = len(packed.vertex_start) - 1
-    prism, plan = np.zeros(count, np.bool_), np.zeros((count, 8))
+    prism, plan = np.zeros(count, np.bool_), np.zeros((count, 10))
     height, effective_radius = np.zeros((count, 2)), np.zeros(count)
     for shape, number in _numbered_shapes(shapes, order):
         outer = shape.outer.stacked()
@@ -154,7 +155,7 @@ def pack_hulls(shapes: Sequence[BodyShape], order: np.ndarray | None = None) -> 
         if outline is not None:
             z = outer.vertices[..., 2]
             prism[number] = True
-            plan[number] = _plan_moments(outline)
+            plan[number, :8] = _plan_moments(outline)
             height[number] = np.column_stack((z.min(axis=1), z.max(axis=1)))
     return Hulls(
         packed.vertex_start, packed.vertex, packed.face_start, packed.loop_start, packed.loop, prism, plan, height, effective_radius

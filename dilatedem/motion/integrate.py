@@ -8,7 +8,7 @@ world axes as its state: without torque |L| cannot change.
 from dilatedem.jit import device, item
 from dilatedem.numerics.rotation import rotation_matrix, to_body, to_world, turned
 from dilatedem.numerics.vector import along, cross, dot, load, store
-from dilatedem.state.response import body_spin, is_free, pushed, spin_of
+from dilatedem.state.response import are_joined, body_spin, is_free, pushed, spin_of
 
 
 @item
@@ -76,9 +76,12 @@ def complete_spin(i, solids, bodies):
 
 @device
 def kinetic_energy(i, solids, bodies):
-    """J, with that of the water that turns with the body; zero for a fixed body."""
+    """J, with that of the water that turns with the body; zero for a fixed body. That of a floe of several parts as it turns is the
+    first one's."""
     if not is_free(i, solids):
         return 0.0
     v = load(bodies.velocity, i)
     turning = dot(load(bodies.angular_momentum, i), load(bodies.angular_velocity, i))
+    if i > 0 and are_joined(i - 1, i, solids):
+        turning = 0.0
     return 0.5 * (solids.mass[i] * dot(v, v) + turning)

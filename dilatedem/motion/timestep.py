@@ -152,7 +152,7 @@ def assembled_frequency(model, bodies, pairs, workspace):
 
     A body's contacts add up to s = sum c k_tan/m', c = 2, or 1 where the other side is held; no mode is
     faster than sqrt(max s), as (u_a x_a + u_b x_b)^2 <= 2 (u_a x_a)^2 + 2 (u_b x_b)^2 for each contact. Those of all parts of a
-    sprung structure add up to one s, and so do the springs that carry it.
+    sprung structure add up to one s, and so do the springs that carry it; so do those of all parts of a floe.
     """
     solids, supports, stiffness = model.solids, model.supports, workspace.stiffness
     for i in range(len(stiffness)):
@@ -166,6 +166,11 @@ def assembled_frequency(model, bodies, pairs, workspace):
     most = 0.0
     for i in range(len(stiffness)):
         most = max(most, stiffness[i])
+    for j in range(len(model.joined)):
+        together = 0.0
+        for i in range(model.joined[j, 0], model.joined[j, 1]):
+            together += stiffness[i]
+        most = max(most, together)
     for m in range(len(supports.moving)):
         s, together = supports.moving[m], 0.0
         for c in range(3):

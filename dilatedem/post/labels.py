@@ -18,6 +18,7 @@ KEYS: dict[str, tuple[str, str]] = {
     "field.sha256": ("SHA-256 of the file of outlines", ""),
     "field.scale": ("metres per unit of the file of outlines", ""),
     "field.origin": ("place of the file's origin", "m"),
+    "field.not_convex": ("floes that are not convex", ""),
     "field.tolerance": ("tolerance of thinned outlines", "m"),
     "field.smallest": ("size of the smallest floe of a file", "m"),
     "field.shape": ("shape of the floes", ""),

@@ -59,7 +59,7 @@ def _about_thickness(case: Case, scene: Scene) -> str:
     if not case.water.enabled:
         return ""
     widths = {}
-    if len(areas := scene.plan_area[scene.explicit :]):
+    if len(areas := scene.field.floe_area):
         widths["the floes"] = (float(scene.ice.thickness.mean()), math.sqrt(areas.mean()))
     for number, body in enumerate(case.body):
         if body.outline is not None and not body.fixed:

@@ -18,7 +18,7 @@ def check(case: Case) -> dict:
     simulation = Simulation.of_case(case)
     simulation.require_apart()
     scene, floating = simulation.scene, simulation.model.floating
-    areas = scene.plan_area[scene.explicit :]
+    areas = scene.field.floe_area
     facts = {
         "floes": len(areas),
         "explicit bodies": scene.explicit,

@@ -252,7 +252,7 @@ class RunFolder:
         stepping_s = self._wall_s - self._compile_s - self._checked.get("wall_s", 0.0)
         self._background.put(write_summary, self._out / folder.SUMMARY, {
             "status": status, "message": message, "title": case.title, "version": __version__, "versions": versions,
-            "seed": case.field.seed, "floes": simulation.model.floating, "steps": step, "dt_s": simulation.dt,
+            "seed": case.field.seed, "floes": simulation.model.floes, "steps": step, "dt_s": simulation.dt,
             "dt_critical_s": simulation.critical, "dt_over_critical": simulation.dt / simulation.critical,
             "dt_over_critical_of_open_contacts": told["dt_over_critical_of_open_contacts"], "simulated_s": simulation.time_s,
             "duration_s": case.time.duration, "wall_s": self._wall_s, "compile_s": self._compile_s,

@@ -15,6 +15,7 @@ from dilatedem.output.tables import verified
 from dilatedem.run.ending import total_steps
 from dilatedem.run.observers import OBSERVERS
 from dilatedem.run.simulation import REMODELLED, Simulation
+from dilatedem.state.bodies import joined_rows
 from dilatedem.state.pairs import unpacked
 
 #: keys that are named where two cases differ, at most
@@ -53,7 +54,8 @@ def load_checkpoint(out: Path, case: Case, simulation: Simulation) -> dict:
         since, ids = np.full(len(state.ids.body), -1), state.ids.body  # those that have come since are part of no structure
         since[ids < len(own)] = own[ids[ids < len(own)]]
         structure_of = np.concatenate([since, structures])
-        simulation.adopt(model._replace(floating=len(state.ids.body), structure_of=structure_of, **arrays))
+        joined = joined_rows(arrays["solids"].floe)
+        simulation.adopt(model._replace(floating=len(state.ids.body), structure_of=structure_of, joined=joined, **arrays))
     return meta
 
 

@@ -18,7 +18,8 @@ SPHERE = 0.5
 
 
 def with_water(solids: Solids, hulls: Hulls, volume: np.ndarray, density: float) -> WateredSolids:
-    """The solids with the water that each free body of `hulls` takes along; volume (n,) [m3] of these; density [kg/m3]: 0 = none.
+    """The solids with the water that each free body of `hulls` takes along; volume (n,) [m3] of these; density [kg/m3]: 0 = none,
+    as where floes are of several parts.
 
     For a floe that lies flat, as draught counts what it displaces where it floats. Along z and about level axes that of a thin disc
     of its plan area, along x and y that of half an oblate spheroid of its plan area and displaced volume. A body that is no upright
@@ -37,12 +38,13 @@ def with_water(solids: Solids, hulls: Hulls, volume: np.ndarray, density: float)
         added[floes, 1] = HEAVING * density * radius * radius * radius
         added_inertia[floes] = PITCHING * density * radius * radius * radius * radius * radius
     inverse_mass, heave, inertia = solids.inverse_mass.copy(), solids.inverse_mass.copy(), solids.inertia.copy()
-    inverse_mass[free] = 1.0 / (solids.mass[free] + added[free, 0])
-    heave[free] = 1.0 / (solids.mass[free] + added[free, 1])
-    inertia[:, 0, 0] += added_inertia
-    inertia[:, 1, 1] += added_inertia
     inverse_inertia = solids.inverse_inertia.copy()
-    inverse_inertia[free] = inverse(inertia[free])
+    if density > 0.0:
+        inverse_mass[free] = 1.0 / (solids.mass[free] + added[free, 0])
+        heave[free] = 1.0 / (solids.mass[free] + added[free, 1])
+        inertia[:, 0, 0] += added_inertia
+        inertia[:, 1, 1] += added_inertia
+        inverse_inertia[free] = inverse(inertia[free])
     own = solids._replace(inverse_mass=inverse_mass, inertia=inertia, inverse_inertia=inverse_inertia)
     return WateredSolids(*own, heave, added, added_inertia)
 

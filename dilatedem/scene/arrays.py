@@ -12,10 +12,11 @@ from dilatedem.numerics.frames import matrix_from_quaternion
 from dilatedem.numerics.plain import inverse, turned
 from dilatedem.scene.added_mass import with_water
 from dilatedem.scene.carriage import pack_supports, places, velocities_at_start
+from dilatedem.scene.joined import join_hulls, join_inertia
 from dilatedem.scene.place import Scene
 from dilatedem.scene.recipe import periodic_axes
 from dilatedem.scene.records import flow_direction
-from dilatedem.state.bodies import Bodies, Solids, WateredSolids, bodies_at_rest
+from dilatedem.state.bodies import Bodies, Solids, WateredSolids, bodies_at_rest, joined_rows
 from dilatedem.state.charts import Along, Charts
 from dilatedem.state.model import Model
 from dilatedem.state.records import records_of
@@ -39,11 +40,12 @@ def build_model(case: Case, scene: Scene) -> Model:
     shapes.plan_reach[scene.count :] = [part.plan_reach for part in parts]
     periodic = periodic_axes(case)
     _require_one_image(case, shapes.reach[: scene.count], cores, periodic)
-    supports, hulls = pack_supports(scene), pack_hulls(scene.shapes, scene.order)
+    supports, hulls = pack_supports(scene), _hulls(scene)
     return Model(
         floating=scene.count,
         structure_of=np.concatenate([_held(scene), _numbers(scene)]).astype(np.int64),
         whole_of=scene.whole_of(),
+        joined=joined_rows(scene.joints.floe),
         shapes=tapered(shapes, np.concatenate([np.zeros(scene.count), [part.taper for part in parts]])),
         hulls=hulls,
         solids=_solids(case, scene, supports, hulls),
@@ -72,6 +74,12 @@ def _held(scene: Scene) -> np.ndarray:
         if isinstance(structure.about, HeldBody):
             found[structure.about.number] = s
     return found
+
+
+def _hulls(scene: Scene) -> Hulls:
+    hulls = pack_hulls(scene.shapes, scene.order)
+    join_hulls(scene.joints, hulls)
+    return hulls
 
 
 def _contact_setting(case: Case) -> ContactSetting:
@@ -120,7 +128,11 @@ def _solids(case: Case, scene: Scene, supports: Supports, hulls: Hulls) -> Solid
     parts, of_part = bodies + supports.part, np.repeat(supports.moving, np.diff(supports.part_start))
     carried[parts], give[parts] = True, supports.inverse_mass[of_part][:, [0, 2]]
     seat[parts] = turned(matrix_from_quaternion(supports.upright).swapaxes(1, 2), supports.seat)
-    solids = Solids(inverse_mass, mass, inertia, inverse_inertia, compliance, _friction(case, scene), carried, give, seat)
+    join_inertia(scene.joints, mass[:bodies], inertia[:bodies], inverse_mass[:bodies], inverse_inertia[:bodies])
+    floe = np.concatenate([scene.joints.floe, np.full(count - bodies, -1)])
+    solids = Solids(
+        inverse_mass, mass, inertia, inverse_inertia, compliance, _friction(case, scene), carried, give, floe, seat
+    )  # fmt: skip
     water = case.water
     density = water.density if water.enabled and water.added_mass else 0.0
     return with_water(solids, hulls, scene.volume(), density) if case.at_sea else solids

@@ -18,11 +18,12 @@ def field_facts(case: Case, scene: Scene) -> dict:
     domain_area = math.prod(case.domain.size)
     generated, listed = case.field.source == "voronoi", case.field.source == "bodies"
     field = scene.field
-    areas = scene.plan_area if listed else field.plan_area
+    areas = scene.plan_area if listed else field.floe_area
     return {
         "source": case.field.source,
         "seed": case.field.seed if generated else None,
         "count": len(areas),
+        **({} if listed or len(areas) == len(field.outlines) else {"parts": len(field.outlines)}),
         "explicit_bodies": scene.explicit,
         "left_out_at_structures": field.left_out,
         "concentration_asked": case.field.concentration if generated else None,

@@ -12,7 +12,7 @@ from dilatedem.errors import CaseError
 from dilatedem.field.distribution import thicknesses
 from dilatedem.field.drawing import VELOCITY, read
 from dilatedem.field.obstacles import Obstacle
-from dilatedem.field.placement import FloeField, dilated_areas, ice_field, touching_obstacles
+from dilatedem.field.placement import FloeField, Parts, dilated_areas, ice_field, touching_obstacles
 from dilatedem.field.stream import Stream
 from dilatedem.field.survey import Report, Wishes, surveyed
 from dilatedem.geometry import outline as plan
@@ -42,7 +42,7 @@ class IceProperties:
         return cls(*each, np.tile(np.array(case.ice_velocity, float), (count, 1)))
 
     def where(self, wanted: np.ndarray) -> IceProperties:
-        """Of those floes that are `wanted` (n,), a mask."""
+        """Of those floes that are `wanted`, a mask (n,) or numbers (m,)."""
         return IceProperties(*(getattr(self, field.name)[wanted] for field in fields(self)))
 
 
@@ -97,21 +97,25 @@ def _drawn(case: Case, bodies: Sequence[Obstacle]) -> Floes:
     """Outlines of the case's file."""
     field, size, radius = case.field, np.array(case.domain.size), case.ice.dilated_radius
     walls = [boundary == "wall" for boundary in (case.domain.x_boundary, case.domain.y_boundary)]
-    wishes = Wishes(field.scale, None if field.origin == "centred" else field.origin, field.tolerance, field.smallest)
+    origin = None if field.origin == "centred" else field.origin
+    wishes = Wishes(field.scale, origin, field.tolerance, field.smallest, field.not_convex == "parts")
     try:
-        outlines, told, report = surveyed(read(field.file), wishes, size, periodic_axes(case), walls, radius)
+        found = surveyed(read(field.file), wishes, size, periodic_axes(case), walls, radius)
     except ValueError as fault:
         raise CaseError(f"field.file: {field.file} {fault}") from fault
+    outlines, floe = found.outlines, found.floe
     if (most := int(outlines.sides.max(initial=0))) > MOST_FACE_CORNERS:
         raise CaseError(
             f"field.tolerance = {field.tolerance:g}: leaves an outline with {most} corners, and at most {MOST_FACE_CORNERS} can be "
             "handled; take a larger one"
         )
-    ice = _told(_varied(case, IceProperties.of_case(case, len(outlines))), told, 2.0 * radius)
+    ice = _told(_varied(case, IceProperties.of_case(case, len(found.properties))), found.properties, 2.0 * radius).where(floe)
     areas, _ = dilated_areas(outlines.by_sides(), len(outlines), 1.0, radius)
-    kept = ~touching_obstacles(outlines, _obstacles(case, ice, bodies), size, periodic_axes(case))
-    made = FloeField(outlines.where(kept), areas[kept], areas, 1.0, float(areas.sum() / np.prod(size)), kept)
-    return Floes(made, ice.where(kept), report)
+    touching = touching_obstacles(outlines, _obstacles(case, ice, bodies), size, periodic_axes(case))
+    kept = ~np.isin(floe, floe[touching])  # a floe goes as a whole
+    parts = Parts(floe[kept], floe, found.inner[kept])
+    made = FloeField(outlines.where(kept), areas[kept], areas, 1.0, float(areas.sum() / np.prod(size)), kept, parts)
+    return Floes(made, ice.where(kept), found.report)
 
 
 def _obstacles(case: Case, ice: IceProperties, bodies: Sequence[Obstacle]) -> list[Obstacle]:

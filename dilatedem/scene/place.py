@@ -18,13 +18,16 @@ from dilatedem.field.stream import Stream
 from dilatedem.field.survey import Report
 from dilatedem.geometry import outline as plan
 from dilatedem.geometry.floes import floe_shapes
+from dilatedem.geometry.packing import numbered
 from dilatedem.geometry.polyhedron import convex_hull, prism
 from dilatedem.geometry.shapes import BodyShape
 from dilatedem.numerics.frames import matrix_from_quaternion, quaternion_from_rotation_vector
 from dilatedem.numerics.plain import turned
 from dilatedem.scene.ice import Floes, IceProperties, floes_of
+from dilatedem.scene.joined import Joints, joined, moved_shapes
 from dilatedem.scene.records import Record, records_of
 from dilatedem.scene.room import MOST_FACE_CORNERS
+from dilatedem.state.bodies import joined_rows
 from dilatedem.structures.held import HeldBody
 from dilatedem.structures.kind import Chart, Part, Structure, member_name
 from dilatedem.structures.plane import Plane
@@ -89,6 +92,7 @@ class Scene:
     outlines: plan.Outlines  # as seen from above, world coordinates, m
     plan_area: np.ndarray  # (n,) m2
     density: np.ndarray  # (n,) kg/m3
+    joints: Joints  # which of them are parts of one floe
     structures: list[PlacedStructure]
     records: list[Record]  # rows of the record of loads: the structures, and sums over them
     field: FloeField
@@ -112,6 +116,13 @@ class Scene:
         """The structure that each structure is a part of, by number; -1 = none."""
         number = {id(structure): s for s, structure in enumerate(self.structures)}
         return np.array([number[id(structure.whole)] if structure.whole else -1 for structure in self.structures], np.int64)
+
+    def floe_area(self) -> np.ndarray:
+        """(n,) plan area [m2] of each body, or of the floe that it is part of."""
+        area = self.plan_area.copy()
+        for first, last in joined_rows(self.joints.floe):
+            area[first:last] = area[first:last].sum()
+        return area
 
     def volume(self) -> np.ndarray:
         """(n,) of the dilated bodies [m3]."""
@@ -165,15 +176,19 @@ def _scene(case: Case, explicit: list[PlacedBody], generated: Floes, structures:
         shapes.append(shape)
         position[order[-1]] = centroid
         position[order[-1], 2] = _floating_height(case, shape, ice.density[floes])
+    density = np.concatenate([[body.density for body in case.body[:first]], ice.density])
+    numbers = list(numbered([shape.count for shape in shapes], np.concatenate(order)))
+    joints, place = joined(first, field.parts, shapes, numbers, density, position)
     return Scene(
         explicit=first,
-        shapes=shapes,
+        shapes=moved_shapes(shapes, numbers, joints),
         order=np.concatenate(order),
-        position=position,
+        position=place,
         orientation=orientation,
         outlines=plan.Outlines.of([*(body.outline for body in explicit), *field.outlines]) if explicit else field.outlines,
         plan_area=np.concatenate([[body.plan_area for body in explicit], field.plan_area]),
-        density=np.concatenate([[body.density for body in case.body[:first]], ice.density]),
+        density=density,
+        joints=joints,
         structures=structures,
         records=records_of(case, structures),
         field=field,

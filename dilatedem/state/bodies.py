@@ -19,6 +19,7 @@ class Solids(NamedTuple):
     friction: np.ndarray  # (n,) mu of Liu 2015, Eq. (6), of a structure with ice; that of ice on ice for a body that floats
     carried: np.ndarray  # (n,) whether it is part of a structure that moves
     give: np.ndarray  # (n, 2) of the support of its structure: inverse mass 1/kg along x and y, 1/(kg m2) about z
+    floe: np.ndarray  # (n,) of a body that is part of a floe of several: a number that the parts share; -1 = it is one by itself
     seat: np.ndarray  # (n, 3) m, from the place of a structure that moves to the body's centroid, in the body's frame
 
 
@@ -31,6 +32,13 @@ WateredSolids = NamedTuple("WateredSolids", [
     ("added_mass", np.ndarray),  # (n, 2) kg, of the water: along x and y, along z
     ("added_inertia", np.ndarray),  # (n,) kg m2, of the water, about any axis across the body's z axis
 ])  # fmt: skip
+
+
+def joined_rows(floe: np.ndarray) -> np.ndarray:
+    """(j, 2) first body of each floe of several parts, and the body behind its last one; floe (n,) as in `Solids`."""
+    bounds = np.flatnonzero(np.diff(floe, prepend=-1, append=-1))
+    rows = [(first, last) for first, last in zip(bounds[:-1], bounds[1:], strict=True) if floe[first] >= 0]
+    return np.array(rows, np.int64).reshape(-1, 2)
 
 
 class Ids(NamedTuple):

@@ -16,6 +16,7 @@ class Model(NamedTuple):
     floating: int  # bodies that are no structures; those of structures are numbered after them
     structure_of: np.ndarray  # (n,) the structure that a body belongs to, -1 = none
     whole_of: np.ndarray  # (s,) the structure that a structure is a part of, -1 = none
+    joined: np.ndarray  # (j, 2) first body of each floe of several parts, and the body behind its last one
     shapes: Shapes
     hulls: Hulls
     solids: Solids
@@ -25,3 +26,8 @@ class Model(NamedTuple):
     charts: Charts
     records: Records
     supports: Supports
+
+    @property
+    def floes(self) -> int:
+        """How many bodies float, those that are parts of one floe as one."""
+        return self.floating - int((self.joined[:, 1] - self.joined[:, 0] - 1).sum())

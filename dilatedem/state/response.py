@@ -13,6 +13,18 @@ def is_free(i, solids):
 
 
 @item
+def is_joined(i, solids):
+    """Whether body i is part of a floe of several."""
+    return solids.floe[i] >= 0
+
+
+@item
+def are_joined(a, b, solids):
+    """Whether two bodies are parts of one floe."""
+    return solids.floe[a] >= 0 and solids.floe[a] == solids.floe[b]
+
+
+@item
 def gives_way(i, solids):
     """Whether body i moves where it is pushed: it is free, or part of a structure that is sprung."""
     return solids.inverse_mass[i] > 0.0 or solids.give[i, 0] > 0.0

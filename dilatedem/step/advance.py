@@ -5,6 +5,7 @@ from dilatedem.contact.tally import close_tally, too_deep
 from dilatedem.jit import kernel, lap
 from dilatedem.motion.carry import carry_structures, push_structures
 from dilatedem.motion.energy import book_energies
+from dilatedem.motion.joined import push_joined
 from dilatedem.motion.paces import foresee
 from dilatedem.motion.timestep import assembled_frequency
 from dilatedem.state.clock import Status
@@ -57,6 +58,7 @@ def advance(
                 team, workspace.busy, busy, awake, dt, clock.time[0], m.floating, m.hulls, m.solids, m.loads, bodies, pairs,
                 workspace,
             )  # fmt: skip
+            push_joined(dt, model, bodies)
             lap(timer, FLOAT)
             load_structures(at_structure, dt, model, bodies, excursions, pairs, workspace, loads)
             push_structures(dt, model, bodies, excursions, loads)

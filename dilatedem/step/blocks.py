@@ -13,7 +13,7 @@ from dilatedem.jit import device, item
 from dilatedem.motion.carry import carried_travel
 from dilatedem.motion.integrate import drift, kick
 from dilatedem.motion.paces import LONGEST_MOVE
-from dilatedem.state.response import is_free
+from dilatedem.state.response import is_free, is_joined
 from dilatedem.step.ahead import fetch_ahead
 from dilatedem.water.loads import body_loads, wet_bodies
 
@@ -90,7 +90,10 @@ def _turn_shapes(block, k, shapes, orientation, pairs, workspace):
 def float_block(
     team, chosen, count, awake, dt, time, floating, hulls, solids, setting, bodies, pairs, workspace, block=0, blocks=1
 ):
-    """All loads on the bodies of a part, and the second half of their kick; dt = 0: the loads alone."""
+    """All loads on the bodies of a part, and the second half of their kick; dt = 0: the loads alone.
+
+    Of floes of several parts, which are always busy, `motion.joined` ends the kick.
+    """
     first, last = part(count, block, blocks)
     if first == last:
         return
@@ -105,5 +108,5 @@ def float_block(
         for m in range(3):
             bodies.force[i, m] = force[m] + bodies.contact_force[i, m]
             bodies.torque[i, m] = torque[m] + bodies.contact_torque[i, m]
-        if dt > 0.0 and is_free(i, solids):
+        if dt > 0.0 and is_free(i, solids) and not is_joined(i, solids):
             kick(i, dt, solids, bodies)

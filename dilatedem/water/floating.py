@@ -14,7 +14,7 @@ from dilatedem.numerics.rotation import rotation_matrix
 def submerged_prism(z, nx, ny, nz, plan, height, body):
     """A right prism cut by the water level through its sides only; valid False where top or bottom is cut, or all is dry or wet.
 
-    z: height of the centroid [m]; (nx, ny, nz): world's up in the body frame; plan (m, 8), height (m, 2): see `Hulls`. Returns
+    z: height of the origin [m]; (nx, ny, nz): world's up in the body frame; plan (m, 10), height (m, 2): see `Hulls`. Returns
     valid, volume [m3], centre of buoyancy (x, y, z) in the body frame [m], wetted area [m2].
     """
     if nz <= 0.0:
@@ -26,10 +26,12 @@ def submerged_prism(z, nx, ny, nz, plan, height, body):
     if level - swing < bottom or level + swing > top:
         return False, 0.0, 0.0, 0.0, 0.0, 0.0
     area, ixx, iyy, ixy = plan[body, 0], plan[body, 1], plan[body, 2], plan[body, 3]
-    volume = area * (level - bottom)
-    mx = slope_x * ixx + slope_y * ixy
-    my = slope_x * ixy + slope_y * iyy
-    mz = 0.5 * (area * (level * level - bottom * bottom) + slope_x * mx + slope_y * my)
+    ax, ay = plan[body, 8], plan[body, 9]
+    rise = slope_x * ax + slope_y * ay
+    volume = area * (level - bottom) + rise
+    mx = slope_x * ixx + slope_y * ixy + (level - bottom) * ax
+    my = slope_x * ixy + slope_y * iyy + (level - bottom) * ay
+    mz = 0.5 * (area * (level * level - bottom * bottom) + slope_x * mx + slope_y * my + (level + bottom) * rise)
     wetted = area + plan[body, 4] * (level - bottom) + slope_x * plan[body, 5] + slope_y * plan[body, 6]
     s = 1.0 / volume
     return True, volume, mx * s, my * s, mz * s, wetted

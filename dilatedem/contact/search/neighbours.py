@@ -10,7 +10,7 @@ from math import sqrt
 from dilatedem.jit import device, item
 from dilatedem.numerics.vector import dot, load, sub
 from dilatedem.state.pairs import KEPT, ROW
-from dilatedem.state.response import is_free
+from dilatedem.state.response import are_joined, is_free
 
 #: distance at which pairs enter the list, in units of the largest reach of a floating body. Larger: fewer rebuilds, longer list
 SKIN = 0.25
@@ -116,7 +116,7 @@ def find_pairs(model, bodies, pairs, spare, cells, clock):
                 c = gx * ny + gy
                 for m in range(start[c], start[c + 1]):
                     b = member[m]
-                    if b <= a or not (is_free(a, solids) or is_free(b, solids)):
+                    if b <= a or not (is_free(a, solids) or is_free(b, solids)) or are_joined(a, b, solids):
                         continue
                     dx = position[b, 0] - position[a, 0]
                     dy = position[b, 1] - position[a, 1]

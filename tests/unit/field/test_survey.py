@@ -12,12 +12,13 @@ from dilatedem.geometry.outline import area, prepare
 SIZE = np.array([40.0, 30.0])
 SQUARE = shapely.box(0.0, 0.0, 2.0, 2.0)
 BAY = shapely.Polygon([(0, 0), (4, 0), (4, 4), (3, 4), (3, 1), (1, 1), (1, 4), (0, 4)])
-AS_DRAWN = Wishes(scale=1.0, origin=(0.0, 0.0), tolerance=0.0, smallest=0.0)
+AS_DRAWN = Wishes(scale=1.0, origin=(0.0, 0.0), tolerance=0.0, smallest=0.0, parts=False)
 
 
 def survey(*areas, wishes=AS_DRAWN, periodic=(False, False), walls=(False, False), radius=0.05):
     drawing = Drawing([Outline(shape, {"density": 900.0 + k}) for k, shape in enumerate(areas)], len(areas))
-    return surveyed(drawing, wishes, SIZE, periodic, walls, radius)
+    found = surveyed(drawing, wishes, SIZE, periodic, walls, radius)
+    return found.outlines, found.properties, found.report
 
 
 def changes(report):
@@ -32,7 +33,8 @@ def test_what_is_convex_and_apart_stays_as_it_was_drawn():
 
 
 def test_scale_and_origin():
-    shifted = [survey(SQUARE, translate(SQUARE, 5.0), wishes=Wishes(2.0, origin, 0.0, 0.0))[0] for origin in ((-3.0, 1.0), None)]
+    wishes = [Wishes(2.0, origin, 0.0, 0.0, False) for origin in ((-3.0, 1.0), None)]
+    shifted = [survey(SQUARE, translate(SQUARE, 5.0), wishes=each)[0] for each in wishes]
     assert np.array_equal(shifted[0][0].min(axis=0), [-3.0, 1.0]) and area(shifted[0][0]) == 16.0
     assert np.array_equal(shifted[1].points.min(axis=0), -shifted[1].points.max(axis=0))
 
@@ -58,7 +60,7 @@ def test_holes_are_filled():
 
 def test_points_within_the_tolerance_are_left_out():
     circle = shapely.Point(0.0, 0.0).buffer(3.0, quad_segs=100)
-    outlines, _, report = survey(circle, wishes=Wishes(1.0, (0.0, 0.0), 0.01, 0.0))
+    outlines, _, report = survey(circle, wishes=Wishes(1.0, (0.0, 0.0), 0.01, 0.0, False))
     assert report.points == (400, len(outlines[0])) and 35 < len(outlines[0]) < 70
     thinned = report.facts()["changes"]["thinned"]
     assert thinned["area_before_m2"] == pytest.approx(circle.area)
@@ -112,7 +114,7 @@ def test_overlaps_across_the_seam_are_cut_too():
 
 def test_small_and_narrow_ones_are_left_out():
     speck, needle = shapely.box(5.0, 5.0, 5.3, 5.3), shapely.box(0.0, 5.0, 4.0, 5.09)
-    outlines, told, report = survey(SQUARE, speck, needle, wishes=Wishes(1.0, (0.0, 0.0), 0.0, 0.5))
+    outlines, told, report = survey(SQUARE, speck, needle, wishes=Wishes(1.0, (0.0, 0.0), 0.0, 0.5, False))
     assert len(outlines) == 1 and told == [{"density": 900.0}]
     gone = report.facts()["changes"]["slivers"]
     assert (gone["outlines"], gone["area_before_m2"], gone["area_after_m2"]) == (2, pytest.approx(0.09 + 0.36), 0.0)
@@ -125,20 +127,57 @@ def test_what_lies_outside_or_at_a_wall_is_left_out():
     assert changes(survey(SQUARE, far, crossing, walls=(True, False))[2]) == {"outside": 1, "at_walls": 1}
 
 
-def test_a_crowd_comes_out_convex_and_apart():
+def pieces(found):
+    """Each floe of a survey as one area."""
+    polygons = np.array([shapely.Polygon(outline) for outline in found.outlines])
+    return [shapely.union_all(polygons[found.floe == floe], grid_size=1e-9) for floe in range(len(found.properties))]
+
+
+def in_parts(*areas, tolerance=0.0, periodic=(False, False)):
+    drawing = Drawing([Outline(shape, {}) for shape in areas], len(areas))
+    return surveyed(drawing, Wishes(1.0, (0.0, 0.0), tolerance, 0.3, True), SIZE, periodic, (False, False), 0.05)
+
+
+def test_outlines_that_are_not_convex_are_cut_into_parts():
+    found = in_parts(BAY, translate(SQUARE, 6.0))
+    assert found.floe.tolist() == [0, 0, 0, 1]
+    assert pieces(found)[0].equals_exact(shapely.normalize(BAY), 1e-9) or pieces(found)[0].symmetric_difference(BAY).area < 1e-9
+    assert found.report.facts()["changes"] == {
+        "parts": {"outlines": 1, "area_before_m2": pytest.approx(BAY.area), "area_after_m2": pytest.approx(BAY.area)}
+    }
+    for outline in found.outlines:
+        prepare(outline)
+    # sides within the floe are there twice: all sides less those are the outline
+    sides = sum(np.linalg.norm(np.roll(outline, -1, axis=0) - outline, axis=1).sum() for outline in found.outlines[:3])
+    assert sides - found.inner[:3, 0].sum() == pytest.approx(BAY.length)
+    assert found.inner[3].tolist() == [0.0, 0.0, 0.0]
+
+
+def test_of_two_the_smaller_loses_what_they_share_where_one_is_not_convex():
+    found = in_parts(BAY, translate(SQUARE, -1.0, 1.0))
+    first, second = pieces(found)
+    assert first.symmetric_difference(BAY).area < 1e-9
+    assert second.symmetric_difference(translate(SQUARE, -1.0, 1.0).difference(BAY)).area < 1e-9
+    assert changes(found.report) == {"parts": 1, "overlaps": 1}
+
+
+@pytest.mark.parametrize("parts", [False, True])
+def test_a_crowd_comes_out_convex_and_apart(parts):
     rng = np.random.default_rng(5)
     crowd = []
     for _ in range(150):
         corners = rng.random((7, 2)) * rng.uniform(0.5, 5.0)
         crowd.append(translate(rotate(shapely.Polygon(corners).buffer(0.1), rng.uniform(0, 360)), *((rng.random(2) - 0.5) * SIZE)))
-    outlines, told, report = survey(*crowd, wishes=Wishes(1.0, (0.0, 0.0), 0.02, 0.3), periodic=(True, True))
-    assert len(outlines) == len(told) > 60
-    for outline in outlines:
+    drawing = Drawing([Outline(shape, {}) for shape in crowd], len(crowd))
+    found = surveyed(drawing, Wishes(1.0, (0.0, 0.0), 0.02, 0.3, parts), SIZE, (True, True), (False, False), 0.05)
+    assert len(found.properties) > 60 and (found.floe.max() == len(found.properties) - 1) and (np.diff(found.floe) >= 0).all()
+    for outline in found.outlines:
         prepare(outline)
-    copies = np.array([shapely.Polygon(outline + SIZE * [i, j]) for i in (-1, 0, 1) for j in (-1, 0, 1) for outline in outlines])
+    shifts = [SIZE * [i, j] for i in (-1, 0, 1) for j in (-1, 0, 1)]
+    copies = np.array([shapely.Polygon(outline + shift) for shift in shifts for outline in found.outlines])
     a, b = shapely.STRtree(copies).query(copies, predicate="intersects")
     assert shapely.area(shapely.intersection(copies[a[a != b]], copies[b[a != b]])).max() < 1e-9
-    facts = report.facts()
-    assert facts["floes"] == len(outlines) and facts["area_after_m2"] == pytest.approx(sum(area(outline) for outline in outlines))
-    lost = sum(facts["changes"][name]["outlines"] for name in ("covered", "slivers") if name in facts["changes"])
-    assert facts["floes"] + lost >= 150 - facts["changes"].get("outside", {"outlines": 0})["outlines"]
+    facts = found.report.facts()
+    assert facts["floes"] == len(found.properties)
+    assert facts["area_after_m2"] == pytest.approx(sum(area(outline) for outline in found.outlines))
+    assert ("parts" in facts["changes"]) == parts == (len(found.outlines) > len(found.properties))
