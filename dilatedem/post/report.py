@@ -15,6 +15,7 @@ from dilatedem.post.canvas import Drawing
 from dilatedem.post.events import event_rows, pressure_words
 from dilatedem.post.figures_sweep import group_runs
 from dilatedem.post.labels import axis_label, describe_key, flatten, kilo, number, show
+from dilatedem.post.limits import limits
 from dilatedem.post.overview import status_words
 from dilatedem.post.read import RunFolder
 from dilatedem.post.sweeps import Sweep, relative, value_words
@@ -23,29 +24,6 @@ from dilatedem.results.files import read_summary
 
 BODIES_LISTED = 5  # more explicit bodies than this are counted in the case table, not listed
 PAIRS = {"ice_ice": "floe on floe", "ice_structure": "floe on structure"}
-
-LIMITS = (
-    "Floes are rigid: they do not crush, split, raft or ridge, though some of these peaks would break real ice.",
-    "Peaks last tens of milliseconds, and their height and number vary from one random field to the next: "
-    "judge by several seeds, not by one run.",
-    "Times of hits above their threshold are counted in whole windows of forces.csv, too long by up to two windows each.",
-)
-LIMITS_OF_CURRENT = "The water is a current without waves, and the ice does not change its flow."
-LIMITS_OF_WAVES = (
-    "Waves ride on a current; ice and structures change neither, and each floe lies in one plane of the surface: floes that are "
-    "not short against the waves feel too much of them."
-)
-LIMITS_OF_WETTED = (
-    " Its drag acts on the whole wetted surface of a floe: about ten times the drag of a formula for the frontal area."
-)
-LIMITS_OF_HELD = "The structure does not give way; its own compliance would soften the peaks."
-LIMITS_OF_LIU2015 = (
-    "Contact laws are those of Liu, Long & Ji (2015), mode by mode. They jump where a contact changes its "
-    "mode, by factors up to some hundreds at 0.1 mm overlap; the laws for parallel edges stand for a contact "
-    "one metre long and are far softer than elasticity; restitution depends on speed. The energy that the "
-    "jumps create is booked as gain_law in the ledger."
-)
-UNFINISHED = "This run did not reach its end: everything here covers only the part that was simulated."
 
 ONE_HIT = (
     "These are no error bars of the run. They say how far this one hit, given the state before it, depends on the step; another "
@@ -298,20 +276,6 @@ def case_rows(case: dict[str, Any]) -> Rows:
 def version_rows(summary: dict[str, Any]) -> Rows:
     rows = [["dilatedem", str(summary["version"])]] if summary.get("version") else []
     return rows + [[name, str(version)] for name, version in (summary.get("versions") or {}).items()]
-
-
-def limits(run: RunFolder) -> list[str]:
-    """What the reader must not expect of these numbers."""
-    sentences = list(LIMITS)
-    flow = LIMITS_OF_WAVES if run.case.get("wave") else LIMITS_OF_CURRENT
-    sentences.insert(1, flow + (LIMITS_OF_WETTED if run.case.get("water", {}).get("drag", "wetted") == "wetted" else ""))
-    if not run.motion:
-        sentences.insert(1, LIMITS_OF_HELD)
-    if run.case.get("contact", {}).get("model", "liu2015") == "liu2015":
-        sentences.insert(0, LIMITS_OF_LIU2015)
-    if run.summary.get("status") != "completed":
-        sentences.insert(0, UNFINISHED)
-    return sentences
 
 
 def mean_table(sweep: Sweep, structure: str) -> dict[str, Any]:
