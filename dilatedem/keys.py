@@ -3,6 +3,7 @@
 Values are taken as they are typed in TOML: no text for a number, no number for a switch, nothing infinite.
 """
 
+import hashlib
 import os
 from collections.abc import Iterator
 from functools import cache
@@ -87,6 +88,8 @@ Vector3 = Annotated[tuple[float, float, float], _as_tuple(3)]
 Size2 = Annotated[tuple[Positive, Positive], _as_tuple(2)]
 # Path of a file; once the case is read, in full.
 File = Annotated[str, AfterValidator(_beside_case)]
+# Of what is in a file: SHA-256.
+Digest = Annotated[str, Field(pattern=r"^[0-9a-f]{64}$")]
 Stiffness2 = Annotated[tuple[NonNegative, NonNegative], _as_tuple(2)]
 Boundary = Literal["open", "periodic", "wall", "outflow", "inflow"]
 # A name serves as an HDF5 group, a CSV field and a step of a dotted key: no / or comma or dot, and no number.
@@ -151,6 +154,29 @@ def _floats(where: tuple[str | int, ...], value: Any) -> Iterator[tuple[tuple[st
 def complete(table: Table, name: str, value: Any) -> None:
     """Sets a key of a table that is being built; from then on the table is frozen."""
     table.__dict__[name] = value
+
+
+def digest_key() -> Any:
+    """The key `sha256` beside a key `file`."""
+    text = "SHA-256 of the file. A run writes it to its case.toml, so that it is not repeated with another file unnoticed."
+    return key(None, "", text)
+
+
+def content_of(file: str) -> str:
+    """SHA-256 of a file."""
+    with open(file, "rb") as opened:
+        return hashlib.file_digest(opened, "sha256").hexdigest()
+
+
+def content_faults(file: str, sha256: str | None) -> list[Fault]:
+    """What is wrong with the file of a table that names it, and perhaps what has to be in it."""
+    try:
+        found = content_of(file)
+    except OSError as error:
+        return [(("file",), f"cannot be read: {error.strerror}")]
+    if sha256 not in (None, found):
+        return [(("file",), "is another than it was: its SHA-256 is not that of the key sha256; leave that key out to take it")]
+    return []
 
 
 class TomlJsonSchema(GenerateJsonSchema):

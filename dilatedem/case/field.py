@@ -1,13 +1,26 @@
 """The field of a case file: how its floes come about."""
 
-import hashlib
 from pathlib import Path
 from typing import Annotated, Literal, Union
 
 from pydantic import Field, model_validator
 
 from dilatedem.field import distribution, drawing
-from dilatedem.keys import LARGEST_INTEGER, Fault, File, NonNegative, Positive, Table, Vector2, complete, key
+from dilatedem.keys import (
+    LARGEST_INTEGER,
+    Digest,
+    Fault,
+    File,
+    NonNegative,
+    Positive,
+    Table,
+    Vector2,
+    complete,
+    content_faults,
+    content_of,
+    digest_key,
+    key,
+)
 
 AnyDistribution = Annotated[Union[distribution.DISTRIBUTIONS], Field(discriminator="kind")]  # noqa: UP007 (a union of a tuple)
 
@@ -54,9 +67,7 @@ class IceField(Table):
         "path starts at the folder of the case file. `thickness`, `density`, `elastic_modulus`, `poisson_ratio` and `velocity` of "
         "an outline are taken where they are given.",
     )
-    sha256: Annotated[str, Field(pattern=r"^[0-9a-f]{64}$")] | None = key(
-        None, "", "SHA-256 of the file. A run writes it to its case.toml, so that it is not repeated with another file unnoticed."
-    )
+    sha256: Digest | None = digest_key()
     scale: Positive = key(1.0, "", "Metres per unit of the file.")
     origin: Literal["centred"] | Vector2 = key(
         (0.0, 0.0),
@@ -91,23 +102,12 @@ class IceField(Table):
             return [(("source",), "needs a file of outlines")]
         if Path(self.file).suffix.lower() not in drawing.SUFFIXES:
             return [(("file",), f"must be a GeoJSON, WKT or CSV file, by its name, too: {', '.join(drawing.SUFFIXES)}")]
-        try:
-            found = self._content()
-        except OSError as error:
-            return [(("file",), f"cannot be read: {error.strerror}")]
-        if self.sha256 not in (None, found):
-            return [(("file",), "is another than it was: its SHA-256 is not that of the key sha256; leave that key out to take it")]
-        return []
-
-    def _content(self) -> str:
-        """SHA-256 of the file."""
-        with Path(self.file).open("rb") as file:
-            return hashlib.file_digest(file, "sha256").hexdigest()
+        return content_faults(self.file, self.sha256)
 
     @model_validator(mode="after")
     def _note_content(self):
         if self.file is not None and self.sha256 is None:
-            complete(self, "sha256", self._content())
+            complete(self, "sha256", content_of(self.file))
         return self
 
     def _shape_faults(self) -> list[Fault]:

@@ -1,18 +1,31 @@
 """A structure drawn in another program: an STL or OBJ file, as convex pieces with rounded edges."""
 
-import hashlib
 from functools import cached_property
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Literal
 
 import numpy as np
 import shapely
-from pydantic import Field, model_validator
+from pydantic import model_validator
 
 from dilatedem.field.obstacles import Obstacle
 from dilatedem.geometry.half_spaces import between
 from dilatedem.geometry.polyhedron import Polyhedron
-from dilatedem.keys import Fault, File, Friction, Name, PoissonRatio, Positive, Vector3, complete, key
+from dilatedem.keys import (
+    Digest,
+    Fault,
+    File,
+    Friction,
+    Name,
+    PoissonRatio,
+    Positive,
+    Vector3,
+    complete,
+    content_faults,
+    content_of,
+    digest_key,
+    key,
+)
 from dilatedem.numerics.frames import matrix_from_quaternion, quaternion_from_rotation_vector
 from dilatedem.numerics.plain import turned
 from dilatedem.state.charts import Along
@@ -31,9 +44,7 @@ class Mesh(Structure):
     kind: Literal["mesh"] = key(..., "", "A structure from an STL or OBJ file.")
     name: Name = name_key("mesh")
     file: File = key(..., "", "STL or OBJ file; a relative path starts at the folder of the case file.")
-    sha256: Annotated[str, Field(pattern=r"^[0-9a-f]{64}$")] | None = key(
-        None, "", "SHA-256 of the file. A run writes it to its case.toml, so that it is not repeated with another file unnoticed."
-    )
+    sha256: Digest | None = digest_key()
     scale: Positive = key(1.0, "", "Metres per unit of the file: 0.001 for millimetres.")
     position: Vector3 = key(
         (0.0, 0.0, 0.0), "m", "Where the origin of the file's coordinates comes to; moments are about it, at z = 0."
@@ -50,23 +61,12 @@ class Mesh(Structure):
     def faults(self) -> list[Fault]:
         if Path(self.file).suffix.lower() not in SUFFIXES:
             return [(("file",), "must be an STL or OBJ file, by its name, too: .stl or .obj")]
-        try:
-            found = self._content()
-        except OSError as error:
-            return [(("file",), f"cannot be read: {error.strerror}")]
-        if self.sha256 not in (None, found):
-            return [(("file",), "is another than it was: its SHA-256 is not that of the key sha256; leave that key out to take it")]
-        return []
-
-    def _content(self) -> str:
-        """SHA-256 of the file."""
-        with Path(self.file).open("rb") as file:
-            return hashlib.file_digest(file, "sha256").hexdigest()
+        return content_faults(self.file, self.sha256)
 
     @model_validator(mode="after")
     def _note_content(self):
         if self.sha256 is None:
-            complete(self, "sha256", self._content())
+            complete(self, "sha256", content_of(self.file))
         return self
 
     @cached_property

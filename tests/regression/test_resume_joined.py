@@ -3,13 +3,11 @@
 import json
 from math import inf
 
-import pytest
 import shapely
 from folders import assert_same_run
-from test_resume_matrix import asked_after
+from test_resume_matrix import asked_after, stopped_halfway
 
 from dilatedem.case.load import case_from
-from dilatedem.errors import Interrupted
 from dilatedem.run import loop
 from dilatedem.run.simulation import Simulation
 
@@ -43,9 +41,4 @@ def test_resumed_equals_uninterrupted(monkeypatch, tmp_path):
     whole = loop.run(case, tmp_path / "whole", quiet=True)
     told = json.loads((whole / "summary.json").read_text())
     assert told["floes"] < 11 and told["loads"]["pile"]["touched"]
-    monkeypatch.setattr(loop, "Interruption", asked_after(never.looks // 2))
-    with pytest.raises(Interrupted):
-        loop.run(case, tmp_path / "parts", quiet=True)
-    monkeypatch.undo()
-    loop.run(case, tmp_path / "parts", threads=2, resume=True, quiet=True)
-    assert_same_run(tmp_path / "parts", whole)
+    assert_same_run(stopped_halfway(monkeypatch, case, tmp_path / "parts", never.looks), whole)

@@ -69,6 +69,15 @@ def asked_after(most: float) -> type[Interruption]:
     return Asked
 
 
+def stopped_halfway(monkeypatch, case, out: Path, looks: int) -> Path:
+    """The folder of a run that was stopped after half of its `looks` at the keyboard, and resumed with two threads."""
+    monkeypatch.setattr(loop, "Interruption", asked_after(looks // 2))
+    with pytest.raises(Interrupted):
+        loop.run(case, out, quiet=True)
+    monkeypatch.undo()
+    return loop.run(case, out, threads=2, resume=True, quiet=True)
+
+
 def hit_at(folder: Path, name: str) -> float:
     """Time [s] at which a structure on springs has left its place."""
     with (folder / "structures.csv").open(encoding="utf-8", newline="") as file:

@@ -4,12 +4,10 @@ say depends on the time alone.
 
 from math import inf
 
-import pytest
 from folders import assert_same_run
-from test_resume_matrix import asked_after
+from test_resume_matrix import asked_after, stopped_halfway
 
 from dilatedem.case.load import load
-from dilatedem.errors import Interrupted
 from dilatedem.run import loop
 from tests.verification.comparison import CASES
 
@@ -23,9 +21,4 @@ def test_resumed_equals_uninterrupted(monkeypatch, tmp_path):
     case, never = load(CASES / "sea_ledger.toml", SHORTER), asked_after(inf)
     monkeypatch.setattr(loop, "Interruption", never)
     whole = loop.run(case, tmp_path / "whole", quiet=True)
-    monkeypatch.setattr(loop, "Interruption", asked_after(never.looks // 2))
-    with pytest.raises(Interrupted):
-        loop.run(case, tmp_path / "parts", quiet=True)
-    monkeypatch.undo()
-    loop.run(case, tmp_path / "parts", threads=2, resume=True, quiet=True)
-    assert_same_run(tmp_path / "parts", whole)
+    assert_same_run(stopped_halfway(monkeypatch, case, tmp_path / "parts", never.looks), whole)

@@ -5,14 +5,13 @@
 from the root of the repository. Runs that are done are kept.
 """
 
-import argparse
 from itertools import product
 from pathlib import Path
 
 import matplotlib.pyplot as plt
 import numpy as np
 
-from validation.loads.runner import HERE, Wanted, found, write_between
+from validation.loads.runner import HERE, Wanted, arguments, found, write_between
 
 START, END = "<!-- bound: written by validation/loads/bound.py -->", "<!-- end of bound -->"
 CASE = Path("cases/pile_crushing.toml")
@@ -35,10 +34,7 @@ def wanted(thickness: float, radius: float, size: float, seed: int) -> Wanted:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--jobs", type=int, default=2)
-    parser.add_argument("--seeds", type=int, default=3)
-    args = parser.parse_args()
+    args = arguments(__doc__)
     seeds = range(1, args.seeds + 1)
     runs = found([wanted(*case, seed) for case, seed in product(CASES, seeds)], args.jobs)
     lines = [

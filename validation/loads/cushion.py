@@ -5,13 +5,12 @@
 from the root of the repository. Runs that are done are kept.
 """
 
-import argparse
 from itertools import product
 
 import matplotlib.pyplot as plt
 import numpy as np
 
-from validation.loads.runner import HERE, Wanted, found, write_between
+from validation.loads.runner import HERE, Wanted, arguments, found, write_between
 
 START, END = "<!-- cushion: written by validation/loads/cushion.py -->", "<!-- end of cushion -->"
 CASE = HERE / "cushion.toml"
@@ -26,10 +25,7 @@ def wanted(kind: str, ice: str, seed: int) -> Wanted:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--jobs", type=int, default=2)
-    parser.add_argument("--seeds", type=int, default=3)
-    args = parser.parse_args()
+    args = arguments(__doc__)
     seeds = {"alone": [1], "through small floes": range(1, args.seeds + 1)}
     todo = [(kind, ice, seed) for kind, ice in product(KINDS, PRESSURES) for seed in seeds[kind]]
     runs = found([wanted(*each) for each in todo], args.jobs)

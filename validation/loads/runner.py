@@ -1,5 +1,6 @@
 """Runs of the studies of loads: made where they are not there, at most so many at a time, and the highest load of each."""
 
+import argparse
 import json
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
@@ -58,6 +59,14 @@ def found(wanted: list[Wanted], jobs: int, structure: str = "pile") -> dict[str,
         peaks = hits.peak_N[hits.structure == structure].to_numpy()
         results[each.name] = Found(loads["fh_max_N"], loads["along_mean_N"], peaks)
     return results
+
+
+def arguments(about: str) -> argparse.Namespace:
+    """Of a study that is called as a module."""
+    parser = argparse.ArgumentParser(description=about)
+    parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--seeds", type=int, default=3)
+    return parser.parse_args()
 
 
 def write_between(page: Path, start: str, end: str, text: str) -> None:

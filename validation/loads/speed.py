@@ -5,14 +5,13 @@
 from the root of the repository. Runs that are done are kept.
 """
 
-import argparse
 from itertools import product
 from pathlib import Path
 
 import matplotlib.pyplot as plt
 import numpy as np
 
-from validation.loads.runner import HERE, WAY, Wanted, found, write_between
+from validation.loads.runner import HERE, WAY, Wanted, arguments, found, write_between
 
 START, END = "<!-- speed: written by validation/loads/speed.py -->", "<!-- end of speed -->"
 SPEEDS = (0.2, 0.3, 0.5, 0.7, 1.0)
@@ -41,10 +40,7 @@ def exponent(speeds: np.ndarray, loads: np.ndarray) -> tuple[float, float]:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--jobs", type=int, default=2)
-    parser.add_argument("--seeds", type=int, default=3)
-    args = parser.parse_args()
+    args = arguments(__doc__)
     seeds = range(1, args.seeds + 1)
     runs = found([wanted(*each) for each in product(KINDS, SPEEDS, seeds)], args.jobs)
     figure, axes = plt.subplots(figsize=(6.4, 4.2), layout="constrained")
