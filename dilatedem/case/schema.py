@@ -250,7 +250,7 @@ class Case(Table):
 
     def _until_faults(self) -> list[Fault]:
         current = self.water.velocity if self.water.enabled else (0.0, 0.0)
-        standing = sum(structure.kind != "plane" for structure in self.structure)
+        standing = sum(structure.has_an_end for structure in self.structure)
         return until_faults(self.time.until, self.domain, current, standing)
 
     @property

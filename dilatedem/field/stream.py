@@ -10,7 +10,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Protocol
 
 import numpy as np
 
@@ -24,19 +23,6 @@ from dilatedem.numerics.plain import norm
 WIDTH = 2.5
 #: blocks of nuclei that are kept in memory once they are drawn
 KEPT = 8
-
-
-class Recipe(Protocol):
-    """What cells a strip has: a pure function of its number."""
-
-    def cells(self, number: int) -> Outlines:
-        """Convex cells of a strip [m], in its own frame: origin in its middle, x and y those of the domain.
-
-        Those of all strips together tile the plane, or the channel, once.
-        """
-
-    def first(self, number: int) -> int:
-        """Number of a strip's first cell, when the cells of all strips are counted from those of strip 0 on."""
 
 
 @dataclass(frozen=True)
@@ -102,10 +88,15 @@ class PoissonVoronoi:
         self._block = lru_cache(KEPT)(self._draw)
 
     def first(self, number: int) -> int:
+        """Number of a strip's first cell, when the cells of all strips are counted from those of strip 0 on."""
         block, strip = divmod(number, self._strips)
         return block * self._count + sum(len(nuclei) for nuclei in self._block(block)[:strip])
 
     def cells(self, number: int) -> Outlines:
+        """Convex cells of a strip [m], in its own frame: origin in its middle, x and y those of the domain.
+
+        Those of all strips together tile the plane, or the channel, once.
+        """
         own = self._nuclei(number)
         beside = 1
         while len(own):
@@ -156,7 +147,7 @@ class Stream:
         strips = max(1, round(course.length / (WIDTH * np.sqrt(np.prod(course.size) / count))))
         self.course, self.width, self._radius = course, course.length / strips, radius
         self._count, self._strips = count, strips
-        self._recipe: Recipe = PoissonVoronoi(course, count, strips, seed)
+        self._recipe = PoissonVoronoi(course, count, strips, seed)
         #: strips that are kept in memory once they are made: those of the domain and of its margins, twice
         self.kept = 2 * strips + KEPT
         self.strip = lru_cache(self.kept)(self._strip)

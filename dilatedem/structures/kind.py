@@ -116,6 +116,8 @@ class Structure(Table):
 
     #: whether something can carry it that moves
     can_move: ClassVar[bool] = True
+    #: whether ice can drift past it
+    has_an_end: ClassVar[bool] = True
 
     @property
     def members(self) -> Sequence[Structure]:

@@ -41,6 +41,7 @@ class Plane(Structure):
     """An unbounded plane, solid on the side that its normal points away from."""
 
     can_move: ClassVar[bool] = False  # it has no end
+    has_an_end: ClassVar[bool] = False
 
     kind: Literal["plane"] = key(..., "", "An unbounded plane.")
     name: Name = name_key("plane")
