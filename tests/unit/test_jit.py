@@ -199,9 +199,19 @@ def test_a_numba_with_another_cache_inside_is_left_as_it_is():
     assert not is_cached(unknown, 1.0) and not is_cached(SimpleNamespace(), 1.0)
 
 
-def test_the_digest_is_of_the_whole_program():
-    """Any source may be part of a kernel, not those of the decorators alone."""
-    assert cache._PACKAGE == Path(dilatedem.__file__).parent
+def test_the_digest_tells_sources_of_kernels_from_others(tmp_path, monkeypatch):
+    package = tmp_path / "dilatedem"
+    shutil.copytree(Path(dilatedem.__file__).parent, package, ignore=shutil.ignore_patterns("__pycache__"))
+    monkeypatch.setattr(cache, "_PACKAGE", package)
+    before = cache.source_digest()
+    for other in ("post/report.py", "cli.py", "structures/pile.py"):
+        (package / other).write_text("")
+    assert cache.source_digest() == before
+    digests = {before}
+    for source in ("contact/friction.py", "structures/record.py", "errors.py"):
+        (package / source).write_text("")
+        digests.add(cache.source_digest())
+    assert len(digests) == 4
 
 
 def test_a_place_that_the_user_chose_has_a_folder_per_state_of_the_sources_too(tmp_path):
