@@ -1,8 +1,8 @@
 """The only place that configures Numba, and the only one that knows it; of Numba, its public interface alone.
 
 Editing an imported module does not invalidate the cache of its callers, and stale machine code gives stale answers. So the
-cache lives in a folder named by a digest of all sources that kernels are made of, set before any decorator runs (2 ms), within the user's
-NUMBA_CACHE_DIR where there is one. Four decorators:
+cache lives in a folder named by a digest of all sources that kernels are made of, set before any decorator runs (2 ms), within the
+user's NUMBA_CACHE_DIR where there is one. Four decorators:
 
 kernel       a loop that Python calls; cached on disk
 item         a stage of the step, or the work on one body or pair: merged into what calls it
