@@ -99,8 +99,8 @@ class PairInPlace:
         )
         return Press(energy, np.array(force), np.array(moment), Mode(mode), size)
 
-    def nominal(self, depth: float) -> tuple[float, float]:
-        """Nominal area [m2] at a crushed depth [m], and its derivative by the depth [m]."""
+    def nominal(self, depth: float) -> tuple[float, float, float]:
+        """Nominal area [m2] at a crushed depth [m], its derivative by the depth [m], and how far it extends [m]."""
         _, normal, pa, pb, offset = self._evaluate()
         return area_of_pair(
             self.shapes, self.pairs, self._vertex, self._face_normal, 0, offset, normal, pa, pb, depth, self._scratch

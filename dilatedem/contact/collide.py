@@ -71,16 +71,17 @@ def collide(k, dt, shapes, vertex, face_normal, solids, bodies, pairs, contact, 
         offset = sub(load(bodies.position, b), load(bodies.position, a))
     else:
         distance, normal, pa, pb = closest(vertex, face_normal, shapes, pairs, k, a, b, offset)
-    store(pairs.normal, k, normal)
     radius_b = radius_at(shapes, vertex, b, sub(pb, offset))
     gap = distance - shapes.radius[a] - radius_b + worn(contact, k, pairs)
     if gap >= 0.0:
         gap = remember(contact, k, gap, shapes.radius[a] + radius_b, bodies, pairs, pa)
         pairs.wake[k] = bodies.path[a] + bodies.path[b] + gap
+        store(pairs.normal, k, normal)
         if pairs.overlap[k] > 0.0:
             _end_contact(pairs, k, dt)
         return
     pressed = press(contact, k, dt, shapes, vertex, face_normal, solids, bodies, pairs, offset, normal, pa, pb, gap, scratch)
+    store(pairs.normal, k, normal)
     arm = sub(pressed.point, offset)
     held = hold(contact, k, dt, solids, bodies, pairs, pressed, arm)
     _book(k, dt, pairs, pressed, held, arm)

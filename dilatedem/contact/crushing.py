@@ -17,7 +17,7 @@ from typing import NamedTuple
 from dilatedem.contact.nominal import nominal_area
 from dilatedem.jit import by_type, item
 from dilatedem.numerics.rotation import rotation_matrix, to_body
-from dilatedem.numerics.vector import dot
+from dilatedem.numerics.vector import along, cross, dot, load, norm, sub
 from dilatedem.state.setting import CRUSHING_SETTINGS
 
 #: gap of what has not crushed [m] at which a contact forgets its crushed depth: the next hit will be at another place
@@ -26,11 +26,6 @@ GONE = 0.1
 CLOSE = 2e-5
 #: evaluations of a contact in which it is found: two or three but for the first step of a hit
 MOST = 40
-#: what is left of the limit of a contact, as it is remembered, after each step in which it was not looked at: it may have slid to
-#: where it bears less
-FADING = 0.997
-#: ... and by how many times the share of its crushed depth that its bodies have turned apart it fades besides
-TURNING = 2.0
 
 
 class Search(NamedTuple):
@@ -71,28 +66,30 @@ def _worn(contact, k, pairs):
 
 @item
 def _never_settles(
-    contact, k, turned, search, crushed, force, damped, stored, overlap, vertex, face_normal, shapes, pairs, offset, normal, pa, pb,
-    scratch,
+    contact, k, dt, velocity, search, crushed, force, damped, stored, overlap, vertex, face_normal, shapes, bodies, pairs, offset,
+    normal, pa, pb, scratch,
 ):  # fmt: skip
     return True, crushed, search, WHOLE
 
 
 @item
 def _settle(
-    contact, k, turned, search, crushed, force, damped, stored, overlap, vertex, face_normal, shapes, pairs, offset, normal, pa, pb,
-    scratch,
+    contact, k, dt, velocity, search, crushed, force, damped, stored, overlap, vertex, face_normal, shapes, bodies, pairs, offset,
+    normal, pa, pb, scratch,
 ):  # fmt: skip
     """Whether the crushed depth [m] of pair k is found; the depth, to be tried next where it is not; the search; what it means.
 
-    turned [m]: how far at most the bodies turned away from each other where they touch, in the last step; force [N], stored [J],
-    overlap [m]: of the elastic law at `crushed`; damped [N]: that force with its dashpot; the rest as of `nominal_area`.
+    dt [s]: the step that led here; velocity [m/s]: of b against a where they touch; force [N], stored [J], overlap [m]: of the
+    elastic law at `crushed`; damped [N]: that force with its dashpot; the rest as of `nominal_area`.
     """
+    a, b = pairs.a[k], pairs.b[k]
     if search.tries == 0:
-        remembered = _remembered(k, turned, crushed, pairs)
+        remembered = _remembered(k, dt, velocity, bodies.angular_velocity, pairs, normal)
         if damped <= remembered:
             return True, crushed, search, Crushed(remembered, 0.0)
-    area, rate = nominal_area(vertex, face_normal, shapes, pairs.a[k], pairs.b[k], offset, normal, pa, pb, crushed, scratch)
+    area, rate, extent = nominal_area(vertex, face_normal, shapes, a, b, offset, normal, pa, pb, crushed, scratch)
     limit, limit_rate = _limit(contact, area, rate)
+    _note_losses(k, area, rate, extent, limit, pairs)
     tries, low, high, first = search.tries, search.low, search.high, search.first
     excess = force - limit
     if tries == 0:
@@ -115,15 +112,32 @@ def _settle(
 
 
 @item
-def _remembered(k, turned, crushed, pairs):
+def _remembered(k, dt, velocity, spin, pairs, normal):
     """What pair k still bears at least [N], by what it bore when it was last looked at; 0: it must be looked at.
 
-    The area of a crushed depth changes as bodies tilt, by as much as depths do, and little as they slide. A contact that is new may
-    be at another place.
+    Less by what the contact can lose as its normal turns in either body, and as the one slides along the other. A contact that is
+    new, or to which no step has led, may be at another place.
     """
-    if pairs.overlap[k] <= 0.0 or TURNING * turned >= crushed:
+    if dt == 0.0 or pairs.overlap[k] <= 0.0:
         return 0.0
-    return FADING * pairs.bears[k] * (1.0 - TURNING * turned / crushed)
+    last, spin_a, spin_b = load(pairs.normal, k), load(spin, pairs.a[k]), load(spin, pairs.b[k])
+    swing = sub(normal, last)
+    in_a, in_b = along(swing, -dt, cross(spin_a, last)), along(swing, -dt, cross(spin_b, last))
+    turned = norm(in_a) + norm(in_b) + dt * abs(dot(sub(spin_b, spin_a), normal))
+    slid = dt * norm(along(velocity, -dot(velocity, normal), normal))
+    return max(pairs.bears[k] - pairs.turn_loss[k] * turned - pairs.slide_loss[k] * slid, 0.0)
+
+
+@item
+def _note_losses(k, area, rate, extent, limit, pairs):
+    """Write by how much at most the limit of pair k falls as the contact turns and slides.
+
+    A turn lifts the corners of the area, the farthest one `extent` [m] away, and the area falls by `rate` a metre of that; a slide,
+    or a turn about the normal, moves the ends of one body along the other's. With q <= 0 the limit falls by no more than its share.
+    """
+    pressure = limit / area if area > 0.0 else 0.0
+    pairs.turn_loss[k] = pressure * (rate + 2.0 * extent) * extent
+    pairs.slide_loss[k] = pressure * 2.0 * extent
 
 
 @item

@@ -237,7 +237,7 @@ def _end_rounding(scratch, which, count):
 
 @device
 def nominal_area(vertex, face_normal, shapes, a, b, offset, normal, pa, pb, depth, scratch):
-    """Nominal area [m2] of the contact of a and b at a depth [m], and its derivative by the depth [m].
+    """Nominal area [m2] of the contact of a and b at a depth [m], its derivative by the depth [m], and how far it extends [m].
 
     vertex (v, 3), face_normal (f, 3): turned to world directions; offset, normal, pa, pb: centroid of b, unit normal from a to b,
     witness points on the cores, all relative to a's centroid; scratch (8, MOST_CORNERS, 3). b may be a half space.
@@ -265,7 +265,7 @@ def nominal_area(vertex, face_normal, shapes, a, b, offset, normal, pa, pb, dept
                 corners = cut(scratch[now], corners, scratch[1 - now], u, v, out, float(which * MOST_CORNERS + k))
                 now = 1 - now
                 if corners < 3:
-                    return 0.0, 0.0
+                    return 0.0, 0.0, 0.0
     return measure(scratch[now], corners, scratch)
 
 

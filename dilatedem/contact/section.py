@@ -98,14 +98,16 @@ def _rounded_off(polygon, count, first, scratch):
 
 @device
 def measure(polygon, count, scratch):
-    """Area of the polygon less what its rounded corners lack [m2], and how fast it grows as its half planes move [m]."""
-    sharp, lacking, rate = 0.0, 0.0, 0.0
+    """Area of the polygon less what its rounded corners lack [m2], how fast it grows as its half planes move [m], and how far its
+    farthest corner is [m]."""
+    sharp, lacking, rate, square = 0.0, 0.0, 0.0, 0.0
     for i in range(count):
         j, number = i + 1 if i + 1 < count else 0, int(polygon[i, 2])
         sharp += 0.5 * (polygon[i, 0] * polygon[j, 1] - polygon[j, 0] * polygon[i, 1])
         lacking += _rounded_off(polygon, count, i, scratch)
+        square = max(square, polygon[i, 0] * polygon[i, 0] + polygon[i, 1] * polygon[i, 1])
         if number >= 0:
             rate += scratch[OFFSET + number // MOST_CORNERS, number % MOST_CORNERS, 1] * _side(polygon, count, i)
     if sharp <= lacking:
-        return 0.0, 0.0
-    return sharp - lacking, rate * (1.0 - lacking / sharp)
+        return 0.0, 0.0, 0.0
+    return sharp - lacking, rate * (1.0 - lacking / sharp), sqrt(square)

@@ -11,6 +11,9 @@ from dilatedem.state.ledger import COSTS
 #: corners of the Minkowski difference that span a closest feature: a tetrahedron at most
 SIMPLEX = 4
 
+#: bytes of a number of a row
+_WORD = 8
+
 #: what a column of a pair's row is for: to find the closest points fast; what a law must know of the last step; what the last
 #: evaluation found; what it cost. The first three go with a pair from list to list, the last starts afresh.
 SEARCH, MEMORY, RESULT, LEDGER = "search", "memory", "result", "ledger"
@@ -25,13 +28,18 @@ class Column(NamedTuple):
     group: str
     meaning: str  # and unit
 
+    @property
+    def words(self) -> int:
+        """How many numbers of 8 bytes it takes in the row."""
+        return self.width * np.dtype(self.kind).itemsize // _WORD
+
 
 #: the row of a pair: everything that only the pair itself needs, in the order of memory and group by group. What the sums per body
 #: ask for, `overlap` to `couple`, begins with a line of the processor's cache and fills two.
 COLUMNS = (
     Column("corners", 1, np.int64, SEARCH, "corners of the closest simplex, 0 = not known yet"),
-    Column("corner_a", SIMPLEX, np.int64, SEARCH, "vertices of a's core"),
-    Column("corner_b", SIMPLEX, np.int64, SEARCH, "vertices of b's core"),
+    Column("corner_a", SIMPLEX, np.int32, SEARCH, "vertices of a's core"),
+    Column("corner_b", SIMPLEX, np.int32, SEARCH, "vertices of b's core"),
     Column("normal", 3, np.float64, SEARCH, "unit normal of the last evaluation"),
     Column("mode", 1, np.int64, MEMORY, "contact mode"),
     Column("stiffness", 1, np.float64, MEMORY, "K of F = K overlap^exponent, N/m^exponent (liu2015)"),
@@ -42,6 +50,10 @@ COLUMNS = (
     Column("grip", 1, np.float64, MEMORY, "m, root of the patch's mean square distance from its centre (consistent)"),
     Column("damping_power", 1, np.float64, MEMORY, "W"),
     Column("elastic_power", 1, np.float64, MEMORY, "W that the elastic force takes up"),
+    Column("crushed", 1, np.float64, MEMORY, "m, depth that has crushed"),
+    Column("dent", 1, np.float64, MEMORY, "rad, where around a's vertical axis it did"),
+    Column("bears", 1, np.float64, MEMORY, "N that the ice can take there, at least, as its bodies moved since it was looked at"),
+    Column("turn_loss", 1, np.float64, MEMORY, "N/rad, most of it that the contact loses as it turns"),
     Column("stored", 1, np.float64, RESULT, "J, elastic energy of the normal force"),
     Column("overlap", 1, np.float64, RESULT, "m, at the centroid of the patch; > 0 says that there is a contact"),
     Column("force", 3, np.float64, RESULT, "N, on b"),
@@ -51,9 +63,7 @@ COLUMNS = (
     Column("couple", 3, np.float64, RESULT, "N m, on b, along the normal force, beside its moment at `point` (consistent)"),
     Column("tangent", 1, np.float64, RESULT, "N/m, what the normal force rises by with the overlap"),
     Column("size", 1, np.float64, RESULT, "length or area of the patch, m or m2; 1 for a contact at a point"),
-    Column("crushed", 1, np.float64, MEMORY, "m, depth that has crushed"),
-    Column("dent", 1, np.float64, MEMORY, "rad, where around a's vertical axis it did"),
-    Column("bears", 1, np.float64, MEMORY, "N that the ice can take there, less by and by while it is not looked at"),
+    Column("slide_loss", 1, np.float64, MEMORY, "N/m, most of what the ice can take that the contact loses as it slides"),
     Column("rounds", 1, np.int64, LEDGER, "rounds of the last distance search"),
     Column("cost", len(COSTS), np.float64, LEDGER, "J of each of `state.ledger.COSTS` in the last step"),
 )
@@ -67,8 +77,8 @@ ALONE = {"count": (1, np.int64), "frame": (2, np.float64), "limit": (1, np.float
 #: numbers in a line of the processor's cache
 _LINE = 8
 #: columns that go with a pair from list to list, and all columns: full lines
-KEPT = sum(column.width for column in COLUMNS if column.group != LEDGER)
-ROW = -(-sum(column.width for column in COLUMNS) // _LINE) * _LINE
+KEPT = sum(column.words for column in COLUMNS if column.group != LEDGER)
+ROW = -(-sum(column.words for column in COLUMNS) // _LINE) * _LINE
 
 #: Candidates for contact, sorted by body a, then body b (a < b); rows beyond `count[0]` are unused. A pair sleeps until its two
 #: bodies' paths have used up its gap (`wake`): no contact can begin before. row (m, ROW), as whole numbers: the memory whose
@@ -108,9 +118,9 @@ def empty_pairs(capacity: int) -> Pairs:
     arrays |= {name: np.zeros(capacity, kind) for name, kind in SCANNED.items()}
     first = 0
     for column in COLUMNS:
-        values = row.view(column.kind)
-        arrays[column.name] = values[:, first] if column.width == 1 else values[:, first : first + column.width]
-        first += column.width
+        values = row[:, first : first + column.words].view(column.kind)
+        arrays[column.name] = values[:, 0] if column.width == 1 else values
+        first += column.words
     return Pairs(**arrays, row=row.view(np.int64))
 
 

@@ -9,7 +9,7 @@ from dilatedem.contact.crushing import UNTRIED, WHOLE, dearer, note_crushed, set
 from dilatedem.contact.pressed import Pressed
 from dilatedem.contact.search.cone import radius_at
 from dilatedem.jit import device, item
-from dilatedem.numerics.vector import along, cross, dot, norm, scale, store, sub
+from dilatedem.numerics.vector import along, cross, dot, scale, store, sub
 from dilatedem.state.response import mobility, relative_spin, relative_velocity
 
 #: share of the sum of the radii past which the distance of the cores means nothing to the energy: they are about to touch
@@ -105,10 +105,9 @@ def press_consistent(contact, k, dt, shapes, vertex, face_normal, solids, bodies
             pairs.grip[k] = 0.0
             return Pressed(mode, size, overlap, middle, normal, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, NONE, NONE)
         acting = _act(contact, a, b, solids, bodies, offset, middle, energy, force, moment)
-        turned = dt * norm(acting.turning) * norm(pa)
         settled, crushed, search, found = settle(
-            contact, k, turned, search, crushed, acting.elastic, acting.share * acting.elastic, energy, overlap, vertex,
-            face_normal, shapes, pairs, offset, normal, pa, pb, scratch,
+            contact, k, dt, acting.velocity, search, crushed, acting.elastic, acting.share * acting.elastic, energy, overlap,
+            vertex, face_normal, shapes, bodies, pairs, offset, normal, pa, pb, scratch,
         )  # fmt: skip
     note_crushed(contact, k, crushed, found, bodies, pairs, pa)
     crumbled = found.lost * dearer(contact, search, crushed, acting.elastic, energy, overlap)

@@ -19,8 +19,8 @@ from dilatedem.contact.liu2015.patch import (
 )
 from dilatedem.contact.pressed import Pressed
 from dilatedem.jit import device, item
-from dilatedem.numerics.vector import dot, norm, sub
-from dilatedem.state.response import reduced_mass, relative_spin, relative_velocity
+from dilatedem.numerics.vector import dot, sub
+from dilatedem.state.response import reduced_mass, relative_velocity
 
 #: shape factor of a polygonal face, Liu 2015 below Eq. (24)
 BETA = 1.02
@@ -125,10 +125,9 @@ def press_liu2015(contact, k, dt, shapes, vertex, face_normal, solids, bodies, p
         mass = reduced_mass(a, b, solids)
         elastic = stiffness * power(overlap, exponent)
         viscous = damping_coefficient(contact.damping, mass, stiffness) * power(overlap, exponent - 1.0) * approach
-        turned = dt * norm(relative_spin(bodies.angular_velocity, a, b)) * norm(pa)
         settled, crushed, search, found = settle(
-            contact, k, turned, search, crushed, elastic, elastic + viscous, stored_energy(stiffness, exponent, overlap),
-            whole - crushed, vertex, face_normal, shapes, pairs, offset, normal, pa, pb, scratch,
+            contact, k, dt, velocity, search, crushed, elastic, elastic + viscous, stored_energy(stiffness, exponent, overlap),
+            whole - crushed, vertex, face_normal, shapes, bodies, pairs, offset, normal, pa, pb, scratch,
         )  # fmt: skip
     note_crushed(contact, k, crushed, found, bodies, pairs, pa)
     normal_force = min(max(elastic + viscous, 0.0), found.limit)  # Eq. (3)

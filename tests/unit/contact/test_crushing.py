@@ -55,7 +55,7 @@ def bearable(simulation: Simulation) -> float:
     _, normal, pa, pb, offset = distance_of_pair(
         shapes, simulation.model.surroundings, bodies, pairs, vertex, face_normal, 0
     )  # fmt: skip
-    area, _ = area_of_pair(shapes, pairs, vertex, face_normal, 0, offset, normal, pa, pb, float(pairs.crushed[0]), scratch)
+    area, *_ = area_of_pair(shapes, pairs, vertex, face_normal, 0, offset, normal, pa, pb, float(pairs.crushed[0]), scratch)
     return PRESSURE * area
 
 

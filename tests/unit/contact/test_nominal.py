@@ -42,7 +42,7 @@ class Meeting:
         self.pair.forget()
         self.pair.place(0, np.zeros(3), turn_a)
         self.pair.place(1, [ahead + self.reach - OVERLAP, self.aside, 0.0], turn_b)
-        return self.pair.nominal(depth)
+        return self.pair.nominal(depth)[:2]
 
 
 def wedge(depth: float, half: float) -> float:
@@ -167,3 +167,35 @@ def test_no_jump_on_a_path_of_poses(path, depth):
     axis = np.array(axis) / np.linalg.norm(axis)
     tilts = np.r_[0.0, np.geomspace(1e-7, 1e-2, 300), np.linspace(1e-2, 0.5 * pi, 900)[1:]]
     assert largest_jump(lambda tilt: meeting.area(depth, Rotation.from_rotvec(tilt * axis))[0], tilts) < 1e-4
+
+
+@pytest.mark.parametrize("partner", ["floe", "pile"])
+def test_an_area_falls_by_no_more_than_its_losses_as_the_bodies_turn_and_slide(partner):
+    """By (rate + 2 extent) extent a radian that the normal turns in either body or the bodies about it, and 2 extent a metre."""
+    rng = np.random.default_rng(7)
+    core, radius = (FLOE, RADIUS) if partner == "floe" else (COLUMN, PILE)
+    pair, fell = PairInPlace(FLOE, core, (RADIUS, radius)), 0
+    for _ in range(400):
+        depth, tilt = 10.0 ** rng.uniform([-7.0, -7.0], [-2.3, -0.5])
+        upright = turned(rng.choice([0.0, 0.0, 45.0, rng.uniform(0.0, 90.0)]))
+        turn = Rotation.from_rotvec(rng.normal(size=3) * 10.0 ** rng.uniform(-7.0, -0.5))
+        place = np.array([6.0, rng.uniform(-1.2, 1.2), rng.uniform(-0.2, 0.2)])
+        pair.forget()
+        pair.place(0, np.zeros(3), Rotation.from_rotvec(rng.normal(size=3) * tilt) * upright)
+        for _ in range(20):
+            pair.place(1, place, turn)
+            found = pair.closest()
+            place[0] -= (found.distance - RADIUS - radius + OVERLAP) / max(abs(found.normal[0]), 0.2)
+        area, rate, extent = pair.nominal(depth)
+        if area == 0.0 or found.distance < 0.0:
+            continue
+        normal, contact = found.normal, found.on_a + RADIUS * found.normal
+        spin = rng.normal(size=3) * 10.0 ** rng.uniform(-6.0, -1.0) * depth / extent
+        slide = np.cross(rng.normal(size=3), normal) * rng.choice([0.0, 10.0 ** rng.uniform(-6.0, -1.0)]) * area / extent
+        pair.place(1, contact + Rotation.from_rotvec(spin).apply(place - contact) + slide, Rotation.from_rotvec(spin) * turn)
+        swing = pair.closest().normal - normal
+        angle = np.linalg.norm(swing) + np.linalg.norm(swing - np.cross(spin, normal)) + abs(spin @ normal)
+        fall = area - pair.nominal(depth)[0]
+        assert fall <= (rate + 2.0 * extent) * extent * angle + 2.0 * extent * np.linalg.norm(slide) + 1e-12 * area
+        fell += fall > 1e-6 * area
+    assert fell > 50

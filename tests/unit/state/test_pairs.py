@@ -18,18 +18,18 @@ def test_columns_are_views_of_the_row_one_after_the_other():
         assert values.shape == ((3,) if column.width == 1 else (3, column.width)) and values.dtype == column.kind
         values[1] = 1
         found = np.flatnonzero(pairs.row[1])
-        assert found.tolist() == list(range(first, first + column.width)), column.name
+        assert found.tolist() == list(range(first, first + column.words)), column.name
         values[1] = 0
         assert (first >= KEPT) == (column.group == LEDGER), column.name
-        first += column.width
+        first += column.words
 
 
 def test_what_the_sums_ask_for_fills_two_cache_lines():
     names = [column.name for column in COLUMNS]
     asked = COLUMNS[names.index("overlap") : names.index("couple") + 1]
     assert {"overlap", "force", "point", "arm", "couple"} <= {column.name for column in asked}
-    assert sum(column.width for column in COLUMNS[: names.index("overlap")]) % 8 == 0
-    assert sum(column.width for column in asked) <= 16
+    assert sum(column.words for column in COLUMNS[: names.index("overlap")]) % 8 == 0
+    assert sum(column.words for column in asked) <= 16
 
 
 def test_rows_with_other_columns_are_refused():
