@@ -22,7 +22,7 @@ from dilatedem.state.setting import CRUSHING_SETTINGS
 
 #: gap of what has not crushed [m] at which a contact forgets its crushed depth: the next hit will be at another place
 GONE = 0.1
-#: difference of force and limit, over the limit, at which the crushed depth is found
+#: difference of force and limit, over the limit, at which the crushed depth is found; what does not exceed it crushes nothing
 CLOSE = 2e-5
 #: evaluations of a contact in which it is found: two or three but for the first step of a hit
 MOST = 40
@@ -85,7 +85,7 @@ def _settle(
     a, b = pairs.a[k], pairs.b[k]
     if search.tries == 0:
         remembered = _remembered(k, dt, velocity, bodies.angular_velocity, pairs, normal)
-        if damped <= remembered:
+        if damped <= (1.0 + CLOSE) * remembered:
             return True, crushed, search, Crushed(remembered, 0.0)
     area, rate, extent = nominal_area(vertex, face_normal, shapes, a, b, offset, normal, pa, pb, crushed, scratch)
     limit, limit_rate = _limit(contact, area, rate)
@@ -93,7 +93,7 @@ def _settle(
     tries, low, high, first = search.tries, search.low, search.high, search.first
     excess = force - limit
     if tries == 0:
-        if excess <= 0.0:
+        if excess <= CLOSE * limit:
             return True, crushed, search, Crushed(limit, 0.0)
         low, high, first = crushed, crushed + overlap, crushed
     elif abs(excess) <= CLOSE * limit or tries > MOST:
