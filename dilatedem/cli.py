@@ -3,22 +3,21 @@
 Whatever a command needs is imported when it runs, so that `--help` answers at once.
 """
 
-import functools
 import sys
-from collections.abc import Callable, Iterable, Mapping
-from contextlib import suppress
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 
 from dilatedem import __version__
-from dilatedem.endings import ending
+from dilatedem.commands.init import init
+from dilatedem.commands.manners import Program, known_faults, say
 from dilatedem.errors import WRONG, CaseError, printable
 from dilatedem.garbage import seldom_collected
 from dilatedem.processes import interrupts, lifeline
 
-app = typer.Typer(
+app = Program(
     name="dilatedem",
     no_args_is_help=True,
     pretty_exceptions_enable=False,
@@ -42,27 +41,6 @@ RunsArgument = Annotated[
 ]
 
 
-def known_faults(command: Callable) -> Callable:
-    """Ends a command on a known fault: its message on standard error, its exit code, no traceback."""
-
-    @functools.wraps(command)
-    def wrapped(*args: Any, **kwargs: Any) -> None:
-        try:
-            command(*args, **kwargs)
-        except (Exception, KeyboardInterrupt) as error:
-            known = ending(error, can_resume=command.__name__ == "run")
-            if not known:
-                raise
-            _end(*known)
-
-    return wrapped
-
-
-def _flag(*names: str, **options: Any) -> Any:
-    # Without an empty metavar the help shows a switch as if it took a value.
-    return typer.Option(*names, metavar="", **options)
-
-
 def _version(asked: bool) -> None:
     if asked:
         print(f"dilatedem {__version__}")
@@ -72,7 +50,7 @@ def _version(asked: bool) -> None:
 @app.callback()
 def dilatedem(
     version: Annotated[
-        bool, _flag("--version", help="Print the version and end.", is_eager=True, callback=_version)
+        bool, typer.Option("--version", help="Print the version and end.", is_eager=True, callback=_version)
     ] = False,
 ) -> None:
     """Broken sea ice against offshore structures: discrete elements of dilated polyhedra.
@@ -90,9 +68,9 @@ def run(
     threads: Annotated[
         int, typer.Option(min=1, metavar="N", help="Threads; the numbers do not depend on it.")
     ] = 1,
-    resume: Annotated[bool, _flag("--resume", help="Go on from the state that DIR holds.")] = False,
-    overwrite: Annotated[bool, _flag("--overwrite", help="Replace the run that DIR holds.")] = False,
-    quiet: Annotated[bool, _flag("--quiet", "-q", help="Print nothing but faults.")] = False,
+    resume: Annotated[bool, typer.Option("--resume", help="Go on from the state that DIR holds.")] = False,
+    overwrite: Annotated[bool, typer.Option("--overwrite", help="Replace the run that DIR holds.")] = False,
+    quiet: Annotated[bool, typer.Option("--quiet", "-q", help="Print nothing but faults.")] = False,
 ) -> None:
     """Simulate a case and write its run folder.
 
@@ -113,7 +91,7 @@ def run(
 
     loop.run(loaded, folder, threads=threads, resume=resume, overwrite=overwrite, quiet=quiet)
     if not quiet:
-        _say(_headline(folder))
+        say(_headline(folder))
 
 
 @app.command()
@@ -131,7 +109,7 @@ def generate(case: CaseArgument, out: OutOption = None, overrides: SetOption = N
 
     folder = out or _default_out(case)
     _print_pairs(generate_field(load(case, overrides or ()), folder))
-    _say(f"field.vtu, field.png and field.json are in {folder}")
+    say(f"field.vtu, field.png and field.json are in {folder}")
 
 
 @app.command()
@@ -168,7 +146,7 @@ def post(runs: RunsArgument) -> None:
 
     for path in make_figures(list(runs)):
         if path.name == "report.html":
-            _say("\n".join([str(path), *_cautions(doubts(read_summary(path.with_name("summary.json"))))]))
+            say("\n".join([str(path), *_cautions(doubts(read_summary(path.with_name("summary.json"))))]))
 
 
 @app.command()
@@ -181,7 +159,7 @@ def info(run_dir: Annotated[Path, typer.Argument(metavar="RUN_DIR", help="Folder
     from dilatedem.post import info as describe
 
     _require_run(run_dir)
-    _say(describe(run_dir))
+    say(describe(run_dir))
 
 
 @app.command()
@@ -211,7 +189,7 @@ def sweep(
     ] = None,
     overrides: SetOption = None,
     resume: Annotated[
-        bool, _flag("--resume", help="Skip finished runs, go on with the others.")
+        bool, typer.Option("--resume", help="Skip finished runs, go on with the others.")
     ] = False,
 ) -> None:
     """Run a grid of cases, each in its own folder, and gather their loads in sweep.csv.
@@ -229,7 +207,7 @@ def sweep(
         case, vary=vary or (), seeds=seeds, jobs=jobs, scheduler=scheduler, out=folder, resume=resume,
         overrides=overrides or (),
     )
-    _say(f"{table}: all cases completed; dilatedem post {folder} draws them")
+    say(f"{table}: all cases completed; dilatedem post {folder} draws them")
 
 
 @app.command()
@@ -241,6 +219,9 @@ def schema() -> None:
     from dilatedem.case.schema import json_schema
 
     print(json.dumps(json_schema(), indent=2))
+
+
+app.command()(init)
 
 
 def main() -> None:
@@ -261,17 +242,6 @@ def _unusable(argument: str) -> str:
     if printable(argument, keep="\n\t") != argument:
         return "holds a control character; leave it out"
     return ""
-
-
-def _say(text: object) -> None:
-    print(printable(str(text), keep="\n"))
-
-
-def _end(message: str, code: int) -> None:
-    interrupts.program_ends()
-    with suppress(OSError):  # the terminal may be gone
-        print(printable(message, keep="\n"), file=sys.stderr)
-    raise typer.Exit(code) from None
 
 
 def _default_out(case: str) -> Path:
@@ -318,7 +288,7 @@ def _print_pairs(pairs: Mapping[str, Any] | Iterable[tuple[str, Any]]) -> None:
     rows = list(_flat(dict(pairs)))
     width = max((len(label) for label, _ in rows), default=0)
     for label, value in rows:
-        _say(f"{label:<{width}}  {f'{value:.6g}' if isinstance(value, float) else value}")
+        say(f"{label:<{width}}  {f'{value:.6g}' if isinstance(value, float) else value}")
 
 
 def _flat(table: Mapping[str, Any], before: str = "") -> Iterable[tuple[str, Any]]:

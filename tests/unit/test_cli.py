@@ -163,10 +163,16 @@ def test_schema_is_json():
 
 
 def test_help_shows_examples():
-    for command in ("run", "generate", "check", "post", "info", "sweep"):
+    for command in ("run", "generate", "check", "post", "info", "sweep", "init"):
         text = invoke(command, "-h").stdout
         assert f"dilatedem {command} " in text
         assert "Example" in text
+
+
+def test_help_gives_no_word_for_the_value_of_a_switch():
+    for command in ([], ["run"], ["sweep"], ["post"], ["init"]):
+        text = invoke(*command, "--help").stdout
+        assert "<bool>" not in text and "BOOLEAN" not in text and "--help" in text
 
 
 def test_help_and_version_import_no_physics():

@@ -1,0 +1,77 @@
+"""How every command speaks and ends: switches, lines on standard output, one message and an exit code for each known fault."""
+
+import functools
+import sys
+from collections.abc import Callable
+from contextlib import suppress
+from typing import Any
+
+import typer
+from typer.core import TyperCommand, TyperGroup
+
+from dilatedem.endings import ending
+from dilatedem.errors import printable
+from dilatedem.processes import interrupts
+
+
+class _Switches:
+    """A command whose help shows switches without the word that says what kind of value follows: none does."""
+
+    def get_params(self, *context: Any) -> list:
+        options = super().get_params(*context)
+        for option in options:
+            if getattr(option, "is_flag", False) and option.metavar is None:
+                option.metavar = ""
+        return options
+
+
+class Command(_Switches, TyperCommand):
+    """Any command."""
+
+
+class Commands(_Switches, TyperGroup):
+    """The program itself."""
+
+
+class Program(typer.Typer):
+    """All commands, with one kind of help."""
+
+    def __init__(self, **options: Any):
+        super().__init__(cls=Commands, **options)
+
+    def command(self, *arguments: Any, **options: Any) -> Callable:
+        return super().command(*arguments, **{"cls": Command} | options)
+
+
+def known_faults(command: Callable) -> Callable:
+    """Ends a command on a known fault: its message on standard error, its exit code, no traceback."""
+
+    @functools.wraps(command)
+    def wrapped(*args: Any, **kwargs: Any) -> None:
+        try:
+            command(*args, **kwargs)
+        except (Exception, KeyboardInterrupt) as error:
+            known = ending(error, can_resume=command.__name__ == "run")
+            if not known:
+                raise
+            end(*known)
+
+    return wrapped
+
+
+def say(text: object) -> None:
+    """A line, or several, on standard output."""
+    print(printable(str(text), keep="\n"))
+
+
+def whisper(text: object) -> None:
+    """The same on standard error, where results are not looked for; a terminal may be gone."""
+    with suppress(OSError):
+        print(printable(str(text), keep="\n"), file=sys.stderr, flush=True)
+
+
+def end(message: str, code: int) -> None:
+    """Ends the program with a message on standard error."""
+    interrupts.program_ends()
+    whisper(message)
+    raise typer.Exit(code) from None
