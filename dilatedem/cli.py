@@ -114,17 +114,30 @@ def generate(case: CaseArgument, out: OutOption = None, overrides: SetOption = N
 
 @app.command()
 @known_faults
-def check(case: CaseArgument, overrides: SetOption = None) -> None:
-    """Validate a case and print what follows from it: floes, mass, time step, size of the output.
+def check(
+    case: CaseArgument,
+    overrides: SetOption = None,
+    as_json: Annotated[bool, typer.Option("--json", help="Print it as JSON, for other programs.")] = False,
+) -> None:
+    """Validate a case and print what follows from it: floes, time step, wall time, memory, disk, ice at structures.
 
-    Example: `dilatedem check cases/pile.toml --set field.floe_size=1.5`
+    Examples:
+
+    - `dilatedem check cases/pile.toml --set field.floe_size=1.5`
+    - `dilatedem check cases/pile.toml --json`
     """
     from dilatedem.case.load import load
 
     loaded = load(case, overrides or ())
     from dilatedem.run import foretell  # after the case: a wrong key is answered without loading the kernels
 
-    facts = dict(foretell.check(loaded))
+    facts = dict(foretell.check(loaded, trial_s=foretell.TRIAL_S))
+    if as_json:
+        import json
+
+        say(json.dumps(foretell.as_json(facts), indent=2, ensure_ascii=False))
+        return
+    facts = foretell.told(facts)
     for warning in facts.pop("warnings", ()):
         print(printable(f"warning: {warning}"), file=sys.stderr)
     _print_pairs(facts)

@@ -23,7 +23,7 @@ def extent(parts: list[Part]) -> tuple[np.ndarray, float]:
 
 def farthest(case: Case, structure: PlacedStructure) -> float:
     """How far [m] a driven structure gets from where it starts; 0 of all others."""
-    return float(np.hypot(*_way(case, structure, _times(case, structure)).T).max())
+    return float(np.hypot(*way_of(case, structure, _times(case, structure)).T).max())
 
 
 def about_driven(case: Case, scene: Scene) -> list[str]:
@@ -42,7 +42,7 @@ def _times(case: Case, structure: PlacedStructure) -> np.ndarray:
     return np.unique(np.concatenate([np.linspace(0.0, case.time.duration, LOOKS), within]))
 
 
-def _way(case: Case, structure: PlacedStructure, times: np.ndarray) -> np.ndarray:
+def way_of(case: Case, structure: PlacedStructure, times: np.ndarray) -> np.ndarray:
     """(n, 2) [m] how far a structure has moved at times (n,) [s]."""
     return structure.support.carriage().at(times)[0][:, :2]
 
@@ -50,7 +50,7 @@ def _way(case: Case, structure: PlacedStructure, times: np.ndarray) -> np.ndarra
 def _about_way(case: Case, structure: PlacedStructure, parts: list[Part]) -> str:
     """It leaves the domain, or goes round a periodic one."""
     times = _times(case, structure)
-    (centre, reach), way = extent(parts), _way(case, structure, times)
+    (centre, reach), way = extent(parts), way_of(case, structure, times)
     for axis, (name, wraps) in enumerate(zip("xy", periodic_axes(case), strict=True)):
         size, places = case.domain.size[axis], centre[axis] + way[:, axis]
         if wraps:
@@ -78,12 +78,12 @@ def _about_meeting(case: Case, driven: list[Standing], bounded: list[Standing]) 
     found = []
     for k, (structure, parts) in enumerate(driven):
         times, earlier = _times(case, structure), [each for each, _ in driven[: k + 1]]
-        (centre, reach), way = extent(parts), _way(case, structure, times)
+        (centre, reach), way = extent(parts), way_of(case, structure, times)
         for other, their_parts in bounded:
             if other in earlier:
                 continue
             place, theirs = extent(their_parts)
-            apart = centre + way - place - _way(case, other, times)
+            apart = centre + way - place - way_of(case, other, times)
             apart -= np.where(np.isfinite(period), np.round(apart / period) * np.where(np.isfinite(period), period, 0.0), 0.0)
             near = np.flatnonzero(np.hypot(*apart.T) < reach + theirs)
             if len(near):

@@ -34,7 +34,8 @@ def simulation(monkeypatch, tmp_path):
         (out / "summary.json").write_text(json.dumps(summary))
 
     fake.run = run
-    fake.check = lambda case: [("floes", 200), ("time step", 5.12345678e-5)]
+    fake.TRIAL_S, fake.told = 0.5, dict
+    fake.check = lambda case, trial_s: [("floes", 200), ("time step", 5.12345678e-5)]
     for name in ("loop", "foretell"):
         monkeypatch.setitem(sys.modules, f"dilatedem.run.{name}", fake)
         monkeypatch.setattr(dilatedem.run, name, fake, raising=False)
