@@ -65,7 +65,8 @@ def key(default: Any, unit: str, description: str, *, allowed: str | None = None
 def _as_tuple(count: int) -> BeforeValidator:
     def convert(value: Any) -> tuple:
         if not isinstance(value, list | tuple) or len(value) != count:
-            raise PydanticCustomError("allowed", f"must be a list of {count} numbers")
+            hint = f", as in {[value] + [0] * (count - 1)}" if type(value) in (int, float) else ""
+            raise PydanticCustomError("allowed", f"must be a list of {count} numbers{hint}")
         return tuple(value)
 
     return BeforeValidator(convert)

@@ -146,6 +146,8 @@ def plan(
         if job.folder.name in names:
             raise CaseError(f"two cases would share the folder {job.folder.name}; give their values in simpler words")
         names.add(job.folder.name)
+    for remark in (remark for axis in axes for remark in axis.remarks):
+        say(f"note: {remark}")
     return todo
 
 

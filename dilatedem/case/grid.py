@@ -2,7 +2,7 @@
 
 import itertools
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from decimal import Decimal, InvalidOperation
 from typing import Any
 
@@ -24,11 +24,12 @@ _OPENING, _CLOSING = "[{", "]}"
 
 @dataclass(frozen=True)
 class Axis:
-    """One key and the values it takes in turn."""
+    """One key and the values it takes in turn; remarks: of what was asked for, what is not among them, in sentences."""
 
     key: str
     values: tuple[Any, ...]
     origin: str
+    remarks: tuple[str, ...] = field(default=(), compare=False)
 
 
 def axis(text: str) -> Axis:
@@ -42,15 +43,22 @@ def axis(text: str) -> Axis:
         raise CaseError(f"--vary {text}: must be KEY=V1,V2,.. or KEY=START:STOP:STEP")
     origin = f"--vary {key}"
     found: list[Any] = []
+    remarks: list[str] = []
     for part in _parts(values):
-        found += _range(part, origin) if _is_range(part) else [parse_value(part, origin)]
+        if not _is_range(part):
+            found.append(parse_value(part, origin))
+            continue
+        found += _range(part, origin)
+        stop = part.split(":")[1].strip()
+        if Decimal(str(found[-1])) != Decimal(stop):
+            remarks.append(f"{origin}: {part}: no step meets {stop}; the last value is {found[-1]}")
     seen: set[str] = set()
     for value in found:
         words = repr(_comparable(value))
         if words in seen:
             raise CaseError(f"{origin}: {value} is given twice")
         seen.add(words)
-    return Axis(key, tuple(found), origin)
+    return Axis(key, tuple(found), origin, tuple(remarks))
 
 
 def _comparable(value: Any) -> Any:

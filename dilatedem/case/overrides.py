@@ -16,6 +16,9 @@ _MOST_DIGITS = 9
 # Numbers that people type and TOML refuses: a bare point before or after the digits, leading zeros.
 _LOOSE_NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?")
 
+# What is meant for a list: numbers with commas between them.
+_NUMBERS_OF_A_LIST = re.compile(rf"{_LOOSE_NUMBER.pattern}(\s*,\s*{_LOOSE_NUMBER.pattern})+,?")
+
 # What may tell how water or air flow.
 _TOLD = {"velocity", "velocity_file", "velocity_table"}
 # Keys of which a case has one: to give the one is to take back the other.
@@ -60,6 +63,9 @@ def parse_value(text: str, origin: str) -> Any:
     except (ValueError, RecursionError):
         if _LOOSE_NUMBER.fullmatch(text):
             return float(text)
+        if _NUMBERS_OF_A_LIST.fullmatch(text):
+            option, key = origin.split()
+            raise CaseError(f"{origin}: {text} is no TOML value; did you mean a list, {option} '{key}=[{text}]'?") from None
         if text and text[0] not in "[{\"'":
             return text
     if not text:

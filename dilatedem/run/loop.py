@@ -18,7 +18,7 @@ from dilatedem.results.run import Run
 from dilatedem.run.ending import total_steps
 from dilatedem.run.faults import fault
 from dilatedem.run.observers import RunFolder
-from dilatedem.run.restore import load_checkpoint
+from dilatedem.run.restore import load_checkpoint, require_same_run
 from dilatedem.run.simulation import Simulation
 from dilatedem.state.clock import Status
 
@@ -27,12 +27,15 @@ LONGEST_CHUNK = 2000
 
 
 def run(case: Case, out: Path, *, threads: int = 1, resume: bool = False, overwrite: bool = False, quiet: bool = False) -> Path:
-    """Simulate a case into the run folder `out`; returns it.
+    """Simulate a case into the run folder `out`; returns it. A run of the same case that the folder holds goes on.
 
     Raises CaseError (nothing written), SimulationStopped or Interrupted (state saved).
     """
     out = Path(out)
     with told_as(CaseError):
+        if folder.is_run(out) and not (resume or overwrite):
+            require_same_run(out, case)
+            resume = True
         folder.check(out, resume=resume, overwrite=overwrite)
         try:
             layer = start_threads(threads)
@@ -44,7 +47,9 @@ def run(case: Case, out: Path, *, threads: int = 1, resume: bool = False, overwr
         with Lock(out) as lock:
             folder.check(out, resume=resume, overwrite=overwrite)  # again: another run may have ended here in between
             saved = load_checkpoint(out, case, simulation) if resume else None
-            if not (saved and saved["over"] and _is_complete(out, simulation)):
+            if saved and saved["over"] and _is_complete(out, simulation):
+                Progress(case.time.duration, quiet).message("nothing to do: the run is complete")
+            else:
                 _simulate(simulation, out, lock, saved, layer, quiet)
     return out
 
@@ -65,6 +70,8 @@ def _simulate(simulation: Simulation, out: Path, lock: Lock, saved: dict | None,
         for sentence in simulation.scene.report.sentences() if simulation.scene.report and not saved else []:
             progress.message(f"{Path(case.field.file).name}: {sentence}")
         progress.message(_headline(simulation, steps, layer))
+        if saved:
+            progress.message(f"goes on from t = {simulation.time_s:.6g} s")
         compile_s = _compile(simulation, progress)
         with Interruption() as interruption, told_as(SimulationStopped, lambda error: _way_on(out, error)):
             lock.keep()

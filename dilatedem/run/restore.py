@@ -85,23 +85,47 @@ def require_same(kept: Path, case: Case) -> bool:
 
     Raises CaseError that names the keys in which they differ else.
     """
-    text = kept.read_text(encoding="utf-8", errors="replace") if kept.exists() else ""
-    if text.partition("\n\n")[2] == write.dump(case):
+    if _text(kept).partition("\n\n")[2] == write.dump(case):
         return True
     try:
-        before = load(kept)
+        differing = _keys_apart(load(kept), case)
     except CaseError:
         raise CaseError(f"{kept}: is not the case given; resume with the case that the run was started with") from None
-    until, asked = before.time.until.model_dump(), case.time.until.model_dump()
-    added = [f"time.until.{name}" for name, value in asked.items() if value and value != until[name]]
-    differing = [*_differing(before.endless.model_dump(), case.endless.model_dump()), *added]
     if differing:
-        more = f" and {len(differing) - MOST_NAMED} more" if len(differing) > MOST_NAMED else ""
         raise CaseError(
-            f"{kept}: is not the case given: it has another {', '.join(differing[:MOST_NAMED])}{more}; resume with the case that "
+            f"{kept}: is not the case given: it has another {_named(differing)}; resume with the case that "
             "the run was started with: only time.duration may be another, and conditions of time.until be left out"
         )
     return False
+
+
+def require_same_run(out: Path, case: Case) -> None:
+    """Raises CaseError unless the run that the folder `out` holds is one of this case, so that to run it again is to go on."""
+    kept, way_on = out / folder.CASE, "replace it with --overwrite, or choose another --out"
+    if _text(kept).partition("\n\n")[2] == write.dump(case):
+        return
+    try:
+        differing = _keys_apart(load(kept), case)
+    except CaseError:
+        raise CaseError(f"{out}: holds a run already, of a case that cannot be read; {way_on}") from None
+    if differing:
+        raise CaseError(f"{out}: holds a run already, of a case with another {_named(differing)}; {way_on}")
+
+
+def _text(kept: Path) -> str:
+    return kept.read_text(encoding="utf-8", errors="replace") if kept.exists() else ""
+
+
+def _keys_apart(before: Case, case: Case) -> list[str]:
+    """Dotted keys at which a case differs from that of before, but for those in which it may."""
+    until, asked = before.time.until.model_dump(), case.time.until.model_dump()
+    added = [f"time.until.{name}" for name, value in asked.items() if value and value != until[name]]
+    return [*_differing(before.endless.model_dump(), case.endless.model_dump()), *added]
+
+
+def _named(keys: list[str]) -> str:
+    more = f" and {len(keys) - MOST_NAMED} more" if len(keys) > MOST_NAMED else ""
+    return f"{', '.join(keys[:MOST_NAMED])}{more}"
 
 
 def _differing(one, other, key: str = "") -> list[str]:

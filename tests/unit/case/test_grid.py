@@ -33,6 +33,20 @@ def test_values(text, values):
 
 
 @pytest.mark.parametrize(
+    ("text", "remarks"),
+    [
+        ("k=0.1:1.0:0.1", ()),
+        ("k=1e-4:3e-4:1e-4", ()),
+        ("k=3:1:-1", ()),
+        ("k=0:1:0.4", ("--vary k: 0:1:0.4: no step meets 1; the last value is 0.8",)),
+        ("k=9,5:1:-3", ("--vary k: 5:1:-3: no step meets 1; the last value is 2",)),
+    ],
+)
+def test_a_stop_that_no_step_meets_is_said(text, remarks):
+    assert axis(text).remarks == remarks
+
+
+@pytest.mark.parametrize(
     ("text", "expected"),
     [
         ("k", "--vary k: must be KEY=V1,V2,.. or KEY=START:STOP:STEP"),

@@ -96,6 +96,8 @@ def test_every_key_can_be_overridden_by_its_default(table):
         ("a..b=3", "must be KEY=VALUE"),
         ("ice.density=", "no value is given"),
         ("water.velocity=[0.5,0", "[0.5,0 is no TOML value; quote it for the shell, as in '[0.5, 0]'"),
+        ("water.velocity=0.5,0", "0.5,0 is no TOML value; did you mean a list, --set 'water.velocity=[0.5,0]'?"),
+        ("water.velocity=.5, -1e-3", ".5, -1e-3 is no TOML value; did you mean a list, --set 'water.velocity=[.5, -1e-3]'?"),
         ("structure.pyle.radius=3", 'structure has no item "pyle"; did you mean "pile"?'),
         ("structure.1.radius=3", "structure has no item 1; its items are 0 to 0"),
         ("body.0.density=3", "body has no item 0; it is empty"),
@@ -113,6 +115,11 @@ def test_faults(text, expected):
     key = text.split("=")[0]
     assert message.startswith((f"--set {key}: {expected}", f"--set {text}: {expected}"))
     assert "\n" not in message
+
+
+def test_words_with_commas_are_words():
+    assert load(PILE, ["title=1, 2, many"]).title == "1, 2, many"
+    assert load(PILE, ['title="1,2"']).title == "1,2"
 
 
 def test_origin_names_the_option():

@@ -92,5 +92,8 @@ def test_structures_are_found_by_name_and_what_stops_a_simulation_is_said():
 def test_a_run_comes_back_opened(tmp_path):
     run = dilatedem.run(CROWDED, tmp_path / "run", time={"duration": 0.1})
     assert run.summary["status"] == "completed" and run.case["time"]["duration"] == 0.1
-    with pytest.raises(CaseError, match="holds a run already"):
-        dilatedem.run(CROWDED, tmp_path / "run")
+    written = (tmp_path / "run" / "summary.json").stat().st_mtime_ns
+    again = dilatedem.run(CROWDED, tmp_path / "run", time={"duration": 0.1})
+    assert again.summary == run.summary and (tmp_path / "run" / "summary.json").stat().st_mtime_ns == written
+    with pytest.raises(CaseError, match=r"run: holds a run already, of a case with another ice.density; replace it with --over"):
+        dilatedem.run(CROWDED, tmp_path / "run", time={"duration": 0.1}, ice={"density": 900.0})
