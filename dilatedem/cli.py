@@ -145,20 +145,33 @@ def check(
 
 @app.command()
 @known_faults
-def post(runs: RunsArgument) -> None:
+def post(
+    runs: RunsArgument,
+    formats: Annotated[
+        list[str] | None,
+        typer.Option("--format", metavar="KIND", help="Of figures: png, svg, pdf; again for more. png and svg unless given."),
+    ] = None,
+    show: Annotated[bool, typer.Option("--open", help="Open each report in the browser.")] = False,
+) -> None:
     """Make figures, summary.json and report.html from the files of runs or sweeps, and nothing else.
 
     Examples:
 
     - `dilatedem post runs/pile`
     - `dilatedem post runs/pile-sweep`
+    - `dilatedem post runs/pile --format pdf --open`
     """
+    from dilatedem.commands.figures import opened, written_as
     from dilatedem.post import post as make_figures
     from dilatedem.results.doubts import doubts
     from dilatedem.results.files import read_summary
 
-    for path in make_figures(list(runs)):
+    with written_as(formats):
+        written = make_figures(list(runs))
+    for path in written:
         if path.name == "report.html":
+            if show:
+                opened(path)
             say("\n".join([str(path), *_cautions(doubts(read_summary(path.with_name("summary.json"))))]))
 
 

@@ -2,8 +2,9 @@
 
 import functools
 import sys
-from collections.abc import Callable
-from contextlib import suppress
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
 from typing import Any
 
 import typer
@@ -12,6 +13,9 @@ from typer.core import TyperCommand, TyperGroup
 from dilatedem.endings import ending
 from dilatedem.errors import printable
 from dilatedem.processes import interrupts
+
+#: s between two lines about what is being done, where there is no terminal
+LINE_INTERVAL_S = 10.0
 
 
 class _Switches:
@@ -68,6 +72,30 @@ def whisper(text: object) -> None:
     """The same on standard error, where results are not looked for; a terminal may be gone."""
     with suppress(OSError):
         print(printable(str(text), keep="\n"), file=sys.stderr, flush=True)
+
+
+@contextmanager
+def busy() -> Iterator[Callable[[str], None]]:
+    """What tells the user, within, what is being done: a line that changes on a terminal, elsewhere a line now and then."""
+    if not sys.stderr.isatty():
+        yield _now_and_then()
+        return
+    from rich.console import Console
+
+    with Console(stderr=True, highlight=False).status("", spinner="line") as status:
+        yield lambda said: status.update(printable(said))
+
+
+def _now_and_then() -> Callable[[str], None]:
+    latest = time.monotonic()
+
+    def tell(said: str) -> None:
+        nonlocal latest
+        if time.monotonic() - latest >= LINE_INTERVAL_S:
+            latest = time.monotonic()
+            whisper(said)
+
+    return tell
 
 
 def end(message: str, code: int) -> None:

@@ -36,7 +36,7 @@ FILES = (
 #: of what lies in folders, the same
 PARTS = {
     SNAPSHOTS: re.compile(r"(ice|structures)_\d{6,}\.vtu(\.tmp)?"),
-    FIGURES: re.compile(r"(field|plan|speed|energy|motion_.+|force_.+|peak_.+|load_.+|hit_.+)\.(png|svg)(\.tmp)?"),
+    FIGURES: re.compile(r"(field|plan|speed|energy|motion_.+|force_.+|peak_.+|load_.+|hit_.+)\.(png|svg|pdf)(\.tmp)?"),
 }
 
 

@@ -5,7 +5,9 @@ from __future__ import annotations
 import functools
 import io
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from contextvars import ContextVar
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -13,7 +15,7 @@ import matplotlib
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from dilatedem.files.atomic import write_bytes, write_text
+from dilatedem.files.atomic import write_bytes
 
 # Okabe & Ito's colours, told apart by colour-blind readers.
 BLACK, ORANGE, SKY, GREEN = "#000000", "#E69F00", "#56B4E9", "#009E73"
@@ -25,6 +27,9 @@ WATER, ICE, FAST_ICE, ICE_EDGE = "#cfe0ec", "#ffffff", "#c8c2b4", "#42586b"
 STRUCTURE, STRUCTURE_EDGE = "#D55E00", "#6b2f00"
 
 PNG_DPI = 160
+#: kinds of files that a figure may be written as, and what says nothing in them of when and by what they were made
+FORMATS = {"png": {"Software": None}, "svg": {"Date": None, "Creator": None}, "pdf": {"CreationDate": None, "Creator": None}}
+USUAL_FORMATS = ("png", "svg")
 
 STYLE = {
     "font.family": "DejaVu Sans",  # comes with matplotlib, so a figure is the same on every machine
@@ -80,24 +85,51 @@ def new_figure(width: float, height: float) -> Figure:
     return figure
 
 
+@dataclass(frozen=True)
+class Writing:
+    """How figures are written: as which files, and who is told of each before it is made."""
+
+    formats: Sequence[str] = USUAL_FORMATS
+    tell: Callable[[str], None] = lambda said: None
+
+
+_WRITING: ContextVar[Writing | None] = ContextVar("writing", default=None)
+
+
+@contextmanager
+def writing(formats: Sequence[str] = USUAL_FORMATS, tell: Callable[[str], None] = lambda said: None) -> Iterator[None]:
+    """Within, figures are written as these FORMATS, and `tell` hears of each."""
+    token = _WRITING.set(Writing(tuple(formats), tell))
+    try:
+        yield
+    finally:
+        _WRITING.reset(token)
+
+
 def save(drawing: Drawing, folder: Path) -> tuple[list[Path], str]:
-    """Write <name>.png and <name>.svg into the folder; return their paths, and the SVG for a web page."""
+    """Write the figure into the folder, as <name>.png and <name>.svg unless `writing` says otherwise.
+
+    Returns the paths, and the SVG for a web page.
+    """
+    how = _WRITING.get() or Writing()
+    how.tell(f"{folder.parent.name}: {drawing.name}")
     folder.mkdir(parents=True, exist_ok=True)
-    png, svg = folder / f"{drawing.name}.png", folder / f"{drawing.name}.svg"
     with matplotlib.rc_context():
         matplotlib.rcdefaults()
         # The salt also keeps the identifiers of two figures on one page apart.
         matplotlib.rcParams.update(STYLE | {"svg.hashsalt": f"dilatedem {drawing.name}"})
-        tight = {"bbox_inches": "tight", "pad_inches": 0.06}
-        image = io.BytesIO()
-        drawing.figure.savefig(image, format="png", dpi=PNG_DPI, metadata={"Software": None}, **tight)
-        write_bytes(png, image.getvalue())
-        buffer = io.StringIO()
-        metadata = {"Date": None, "Creator": None, "Title": drawing.title}
-        drawing.figure.savefig(buffer, format="svg", dpi=PNG_DPI, metadata=metadata, **tight)
-    text = buffer.getvalue()
-    write_text(svg, text)
-    return [png, svg], inline_svg(text)
+        images = {kind: _image(drawing, kind) for kind in dict.fromkeys([*how.formats, "svg"])}
+    written = [folder / f"{drawing.name}.{kind}" for kind in how.formats]
+    for path, kind in zip(written, how.formats, strict=True):
+        write_bytes(path, images[kind])
+    return written, inline_svg(images["svg"].decode())
+
+
+def _image(drawing: Drawing, kind: str) -> bytes:
+    image = io.BytesIO()
+    metadata = FORMATS[kind] | ({} if kind == "png" else {"Title": drawing.title})
+    drawing.figure.savefig(image, format=kind, dpi=PNG_DPI, metadata=metadata, bbox_inches="tight", pad_inches=0.06)
+    return image.getvalue()
 
 
 def inline_svg(text: str) -> str:

@@ -13,7 +13,7 @@ REPORT, FIGURES, SUMMARY = "report.html", "figures", "summary.json"
 COMPARISON_TABLE = "comparison.csv"
 #: in every report there is one of these; the first stands there since 0.3
 REPORT_MARKS = (b'content="dilatedem"', b"Run of dilatedem:", b"<code>dilatedem post</code>")
-FIGURE = re.compile(r".*\.(png|svg)(\.tmp)?")
+FIGURE = re.compile(r".*\.(png|svg|pdf)(\.tmp)?")
 
 
 def refuse_harm(folder: Path) -> None:

@@ -14,6 +14,7 @@ import dilatedem.run
 from dilatedem.case.load import load
 from dilatedem.cli import _clock, app
 from dilatedem.errors import CaseError, Interrupted, SimulationStopped
+from dilatedem.post import canvas
 
 PILE = Path(__file__).parents[2] / "cases" / "pile.toml"
 
@@ -135,7 +136,7 @@ def test_post_and_info(simulation, monkeypatch, tmp_path):
         asked.append(folders)
         return [tmp_path / "figures" / "field.png", tmp_path / "report.html"]
 
-    fake = types.SimpleNamespace(post=fake_post, info=lambda folder: f"{folder.name} is a run")
+    fake = types.SimpleNamespace(post=fake_post, info=lambda folder: f"{folder.name} is a run", canvas=canvas)
     monkeypatch.setitem(sys.modules, "dilatedem.post", fake)
     result = invoke("info", tmp_path / "none")
     assert (result.exit_code, result.stderr) == (2, f"{tmp_path}/none: no such folder\n")

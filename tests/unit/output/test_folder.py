@@ -65,8 +65,8 @@ def test_a_run_is_replaced_when_told_to_and_what_is_not_its_own_stays(tmp_path):
     with pytest.raises(CaseError, match="holds a run already"):
         folder.check(out)
     own = ["snapshots/ice_000000.vtu", "snapshots/ice_1000000.vtu", "snapshots/ice_000003.vtu.tmp", "figures/force_pile.svg"]
-    own += ["figures/load_map_pile.png", "report.html", "stopped.h5", "restart.h5.tmp", "energy.csv"]
-    foreign = ["snapshots/film.mp4", "snapshots/ice_000000.vtu.bak", "figures/mine.svg", "figures/field.pdf", "notes.txt"]
+    own += ["figures/load_map_pile.png", "report.html", "stopped.h5", "restart.h5.tmp", "energy.csv", "figures/field.pdf"]
+    foreign = ["snapshots/film.mp4", "snapshots/ice_000000.vtu.bak", "figures/mine.svg", "figures/field.eps", "notes.txt"]
     for name in own + foreign:
         (out / name).parent.mkdir(exist_ok=True)
         (out / name).write_text(name)
