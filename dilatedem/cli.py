@@ -11,6 +11,7 @@ from typing import Annotated, Any
 import typer
 
 from dilatedem import __version__
+from dilatedem.commands.export import export
 from dilatedem.commands.init import init
 from dilatedem.commands.manners import Program, known_faults, say
 from dilatedem.errors import WRONG, CaseError, printable
@@ -248,6 +249,7 @@ def schema() -> None:
 
 
 app.command()(init)
+app.command()(export)
 
 
 def main() -> None:

@@ -26,6 +26,7 @@ STOPPED = "stopped.h5"
 SUMMARY = "summary.json"
 REPORT = "report.html"  # this one and the figures are made by `post`, and removed with the run that they show
 FIGURES = "figures"
+EXPORT = "export"  # likewise, by `export`
 
 RUN_MARKS = (CASE, FORCES, CHECKPOINT, SUMMARY)  # any one of them, and the folder holds a run
 #: files that a run replaces and removes, case.toml last: as long as it is there, the folder holds a run that may be replaced
@@ -37,6 +38,7 @@ FILES = (
 PARTS = {
     SNAPSHOTS: re.compile(r"(ice|structures)_\d{6,}\.vtu(\.tmp)?"),
     FIGURES: re.compile(r"(field|plan|speed|energy|motion_.+|force_.+|peak_.+|load_.+|hit_.+)\.(png|svg|pdf)(\.tmp)?"),
+    EXPORT: re.compile(r".+_(loads\.(csv|dat|inp)|heights\.csv)(\.tmp)?"),
 }
 
 
