@@ -14,6 +14,7 @@ from dilatedem import __version__
 from dilatedem.commands.export import export
 from dilatedem.commands.init import init
 from dilatedem.commands.manners import Program, known_faults, say
+from dilatedem.commands.paraview import paraview
 from dilatedem.errors import WRONG, CaseError, printable
 from dilatedem.garbage import seldom_collected
 from dilatedem.processes import interrupts, lifeline
@@ -250,6 +251,7 @@ def schema() -> None:
 
 app.command()(init)
 app.command()(export)
+app.command()(paraview)
 
 
 def main() -> None:

@@ -165,7 +165,7 @@ def test_schema_is_json():
 
 
 def test_help_shows_examples():
-    for command in ("run", "generate", "check", "post", "info", "sweep", "init", "export"):
+    for command in ("run", "generate", "check", "post", "info", "sweep", "init", "export", "paraview"):
         text = invoke(command, "-h").stdout
         assert f"dilatedem {command} " in text
         assert "Example" in text
