@@ -57,7 +57,7 @@ def dilatedem(
 ) -> None:
     """Broken sea ice against offshore structures: discrete elements of dilated polyhedra.
 
-    Start with `dilatedem run cases/pile.toml`, then `dilatedem post runs/pile`.
+    Start with `dilatedem init small`, then `dilatedem run small.toml`, then `dilatedem post runs/small`.
     """
 
 
@@ -80,7 +80,7 @@ def run(
 
     - `dilatedem run cases/pile.toml`
     - `dilatedem run cases/pile.toml --set water.velocity=[0.5,0] --out runs/fast`
-    - `dilatedem run cases/pile.toml --resume`
+    - `dilatedem run cases/pile.toml` again goes on where it was cut short, or has nothing to do
     - `dilatedem run runs/pile/case.toml --out runs/again` (repeats a run)
     """
     from dilatedem.case.load import load

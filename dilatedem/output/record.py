@@ -14,6 +14,8 @@ from dilatedem.structures.kind import Sketch
 
 #: where the first axis of a load map lies, of a structure that moves
 GOES_WITH = "; the map goes with the structure, of which this is said at t = 0"
+#: bytes of run.h5, about: of itself, of every floe and every structure
+FILE, FLOE, MAP = 3e5, 350.0, 25e3
 
 
 def floe_table(scene, ids: np.ndarray | None = None) -> FloeTable:
@@ -33,6 +35,10 @@ class Record(Observer):
 
     name = "record"
     _archive: RunArchive | None = None  # until it is written first
+
+    @classmethod
+    def size(cls, case, floes: int, structures: int) -> float:
+        return FILE + FLOE * floes + MAP * structures
 
     def save(self) -> None:
         simulation = self.simulation

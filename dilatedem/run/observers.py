@@ -29,6 +29,8 @@ from dilatedem.scene.facts import file_facts
 
 #: s of wall time after which, at the latest, new rows and snapshots are in the tables and in ice.pvd (or at the next thing due)
 REFRESH_S = 1.0
+#: bytes of a saved state, about: of itself and of every floe; how many times as large it is with the states of a check of the step
+STATE, STATE_FLOE, CHECKED = 2.7e5, 5.6e3, 1.5
 #: message of a run that is complete, where there was something to touch
 NOTHING_TOUCHED = "no ice touched any structure"
 
@@ -41,6 +43,11 @@ class Checkpoints(Observer):
     @classmethod
     def interval(cls, case: Case) -> float:
         return case.output.checkpoint_interval
+
+    @classmethod
+    def size(cls, case: Case, floes: int, structures: int) -> float:
+        """Of two states: the last one, and that from before the end."""
+        return 2.0 * (STATE + STATE_FLOE * floes) * (CHECKED if case.time.error_check else 1.0)
 
     def must_save(self, step: int) -> bool:
         return self.schedule.is_due(step)
