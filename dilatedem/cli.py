@@ -17,7 +17,7 @@ from dilatedem.commands.manners import Program, known_faults, say
 from dilatedem.commands.paraview import paraview
 from dilatedem.errors import WRONG, CaseError, printable
 from dilatedem.garbage import seldom_collected
-from dilatedem.processes import interrupts, lifeline
+from dilatedem.processes import interrupts
 
 app = Program(
     name="dilatedem",
@@ -228,7 +228,7 @@ def sweep(
     - `dilatedem sweep cases/pile.toml --vary water.velocity=[0.3,0],[0.3,0.1]`
     - `dilatedem sweep cases/pile.toml --vary field.floe_size=1.8,2.8 --vary contact.friction=0:0.3:0.1`
     """
-    from dilatedem.sweep import sweep as run_grid
+    from dilatedem.sweeps.sweep import sweep as run_grid
 
     folder = out or Path(f"{_default_out(case)}-sweep")
     table = run_grid(
@@ -260,7 +260,6 @@ def main() -> None:
         if fault := _unusable(argument):
             print(f"argument {number}, {printable(argument[:60])}: {fault}", file=sys.stderr)
             sys.exit(WRONG)
-    lifeline.watch()
     with interrupts.heard_once(), seldom_collected():
         app()
 

@@ -58,6 +58,10 @@ class Lock:
         if not os.fstat(self._descriptor).st_size:
             write_whole(self._descriptor, USED)
 
+    def leave(self) -> None:
+        """In a process that is a copy of the one that holds the lock: have no part in it, so that it ends with the other."""
+        os.close(self._descriptor)
+
     def _locked(self) -> int:
         """The descriptor of the lock file."""
         for left in reversed(range(TRIES)):

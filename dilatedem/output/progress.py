@@ -85,7 +85,7 @@ class Progress:
         if remaining <= 0.0:
             left = "done"
         else:
-            left = f"{_wall_time(remaining / speed)} left" if speed > 0.0 else "time left unknown"
+            left = f"{wall_time(remaining / speed)} left" if speed > 0.0 else "time left unknown"
         reached = f"{time_s:.2f} of {self._duration_s:g} s"
         figures = f"{reached}, {left}, {step_rate:,.0f} steps/s, {contacts()} contacts"
         if self._bar is not None:
@@ -101,7 +101,7 @@ class Progress:
             self._quiet, self._bar = True, None
 
     def _draw_bar(self) -> None:
-        self._bar = _Bar(self._stream, self._duration_s)
+        self._bar = Bar(self._stream, self._duration_s)
 
     def _line(self, text: str) -> None:
         print(text, file=self._stream, flush=True)
@@ -116,10 +116,10 @@ class Progress:
         return (time_s - time_then) / wall, (steps - steps_then) / wall
 
 
-class _Bar:
+class Bar:
     """rich's bar, drawn only when told to: its own thread would compete with the kernels for a core."""
 
-    def __init__(self, stream: TextIO, duration_s: float):
+    def __init__(self, stream: TextIO, total: float):
         from rich import progress
         from rich.console import Console
         from rich.table import Column
@@ -131,11 +131,11 @@ class _Bar:
             console=self._console,
             auto_refresh=False,
         )
-        self._task = self._progress.add_task("", total=duration_s, figures="")
+        self._task = self._progress.add_task("", total=total, figures="")
         self._progress.start()
 
-    def draw(self, time_s: float, figures: str) -> None:
-        self._progress.update(self._task, completed=time_s, figures=figures, refresh=True)
+    def draw(self, done: float, figures: str) -> None:
+        self._progress.update(self._task, completed=done, figures=figures, refresh=True)
 
     def message(self, text: str) -> None:
         self._progress.console.print(text, markup=False, highlight=False)
@@ -144,7 +144,7 @@ class _Bar:
         self._progress.stop()
 
 
-def _wall_time(seconds: float) -> str:
+def wall_time(seconds: float) -> str:
     """5 s, 2:05 or 1:02:05."""
     seconds = int(round(seconds))
     if seconds < 60:

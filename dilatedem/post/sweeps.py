@@ -18,7 +18,7 @@ from dilatedem.post.loads import load_statistics
 from dilatedem.post.read import RunFolder, open_run
 from dilatedem.results.files import is_run
 from dilatedem.results.soundness import damaged
-from dilatedem.results.sweep import locate, parse_value, read_rows
+from dilatedem.results.sweep import locate, parse_value, read_rows, varied_keys
 
 LOAD_COLUMN = re.compile(r"(?P<structure>.+)_(?P<quantity>(?:f[xyzh]|along|across|m[zh])_(?:max|min|mean))_Nm?")
 SEED_KEY = "field.seed"
@@ -63,7 +63,7 @@ def read_sweep(folder: Path) -> Sweep:
     Raises CaseError when its sweep.csv is another kind of table.
     """
     header, records = read_rows(folder)
-    keys = [name for name in header[: header.index("seed")] if name != SEED_KEY]
+    keys = [name for name in varied_keys(header) if name != SEED_KEY]
     runs = [sweep_run(record, keys, folder) for record in records]
     return Sweep(sweep_title(folder, runs), folder, keys, runs)
 

@@ -38,15 +38,14 @@ class Sweep:
     @property
     def keys(self) -> list[str]:
         """The keys of the case that vary, the seed apart unless it was varied as a key."""
-        header, _ = self._rows
-        return header[: header.index("seed")]
+        return varied_keys(self._rows[0])
 
     @cached_property
     def table(self) -> pandas.DataFrame:
         """sweep.csv, a row a run, numbers as numbers and what is empty as NaN.
 
         A key whose values are vectors keeps its column of text; its components, as numbers, follow in columns of their own:
-        `water.velocity`, then `water.velocity.0`, `water.velocity.1`.
+        `water.velocity`, then `water.velocity.0`, `water.velocity.1`; so they do in the file, unless an earlier version wrote it.
         """
         pandas = imported("pandas")
         header, rows = self._rows
@@ -100,10 +99,16 @@ class Runs(Sequence[Run]):
         return self._loaded[folder]
 
 
+def varied_keys(header: Sequence[str]) -> list[str]:
+    """The keys that vary, of the columns of sweep.csv: those left of `seed`, but for the components of vectors among them."""
+    left = header[: header.index("seed")]
+    return [name for name in left if not (name.rpartition(".")[2].isdecimal() and name.rpartition(".")[0] in left)]
+
+
 def read_rows(folder: Path) -> tuple[list[str], list[dict[str, str]]]:
     """Header and rows of sweep.csv, cells as text; a row that was cut short is left out.
 
-    The columns left of `seed` are the keys that vary. Raises CaseError when it is another kind of table.
+    The columns left of `seed` tell what varies (`varied_keys`). Raises CaseError when it is another kind of table.
     """
     path = folder / "sweep.csv"
     text = path.read_text(encoding="utf-8", errors="replace")

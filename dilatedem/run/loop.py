@@ -2,6 +2,7 @@
 
 import os
 import time
+from collections.abc import Callable
 from pathlib import Path
 
 from dilatedem.case.load import case_from
@@ -24,11 +25,17 @@ from dilatedem.state.clock import Status
 
 #: steps between two looks at the keyboard and the progress bar, where no output is due earlier
 LONGEST_CHUNK = 2000
+#: kinds of runs whose kernels this process has, as arguments of `compile_kernels`
+_READY: set[tuple] = set()
 
 
-def run(case: Case, out: Path, *, threads: int = 1, resume: bool = False, overwrite: bool = False, quiet: bool = False) -> Path:
+def run(
+    case: Case, out: Path, *, threads: int = 1, resume: bool = False, overwrite: bool = False, quiet: bool = False,
+    progress: Progress | None = None, interruption: Interruption | None = None,
+) -> Path:
     """Simulate a case into the run folder `out`; returns it. A run of the same case that the folder holds goes on.
 
+    progress, interruption: those of the run, unless it has its own (a bar unless `quiet`, signals).
     Raises CaseError (nothing written), SimulationStopped or Interrupted (state saved).
     """
     out = Path(out)
@@ -47,10 +54,11 @@ def run(case: Case, out: Path, *, threads: int = 1, resume: bool = False, overwr
         with Lock(out) as lock:
             folder.check(out, resume=resume, overwrite=overwrite)  # again: another run may have ended here in between
             saved = load_checkpoint(out, case, simulation) if resume else None
+            progress = progress or Progress(case.time.duration, quiet)
             if saved and saved["over"] and _is_complete(out, simulation):
-                Progress(case.time.duration, quiet).message("nothing to do: the run is complete")
+                progress.message("nothing to do: the run is complete")
             else:
-                _simulate(simulation, out, lock, saved, layer, quiet)
+                _simulate(simulation, out, lock, saved, layer, progress, interruption or Interruption())
     return out
 
 
@@ -60,11 +68,13 @@ def _is_complete(out: Path, simulation: Simulation) -> bool:
     return int(simulation.state.clock.step[0]) == summary.get("steps") and summary.get("status") == "completed"
 
 
-def _simulate(simulation: Simulation, out: Path, lock: Lock, saved: dict | None, layer: str, quiet: bool) -> None:
+def _simulate(
+    simulation: Simulation, out: Path, lock: Lock, saved: dict | None, layer: str, progress: Progress, interruption: Interruption
+) -> None:
     """From t = 0, or from a checkpoint whose meta is `saved`, to the end. From now on files are written."""
     case = simulation.case
     steps = total_steps(case, simulation.dt)
-    with Progress(case.time.duration, quiet) as progress:
+    with progress:
         for sentence in [] if saved else simulation.advice():
             progress.message(f"warning: {sentence}")
         for sentence in simulation.scene.report.sentences() if simulation.scene.report and not saved else []:
@@ -73,7 +83,7 @@ def _simulate(simulation: Simulation, out: Path, lock: Lock, saved: dict | None,
         if saved:
             progress.message(f"goes on from t = {simulation.time_s:.6g} s")
         compile_s = _compile(simulation, progress)
-        with Interruption() as interruption, told_as(SimulationStopped, lambda error: _way_on(out, error)):
+        with interruption, told_as(SimulationStopped, lambda error: _way_on(out, error)):
             lock.keep()
             with RunFolder(simulation, out, saved, compile_s=compile_s) as files:
                 if not saved:
@@ -105,24 +115,33 @@ def run_case(
 
 
 def compile_kernels(
-    threads: int = 1, model: str = "liu2015", crushing: bool = False, tapers: bool = False, sea: bool = False
+    threads: int = 1, model: str = "liu2015", crushing: bool = False, tapers: bool = False, sea: bool = False, *,
+    announce: Callable[[str], None] = lambda said: None,
 ) -> None:
-    """Compile what a run with such `Case.laws` needs, or load it from the cache."""
+    """Compile what a run with such `Case.laws` needs, or load it from the cache; once a process, which keeps it.
+
+    announce: told of what takes long
+    """
+    kind = (threads, model, crushing, tapers, sea)
+    if kind in _READY:
+        return
     case = Case.model_validate({
         "field": {"source": "bodies"}, "body": [{"vertices": [[0.0, 0.0, 0.0]], "dilated_radius": 0.1}],
         "contact": {"model": model}, "ice": {"crushing_pressure": 1.0e6} if crushing else {}, "water": {"added_mass": sea},
         "structure": [{"kind": "cone"}] if tapers else [],
     })  # fmt: skip
-    Simulation.of_case(case, threads=threads).advance(1)
+    simulation = Simulation.of_case(case, threads=threads)
+    if not simulation.is_compiled():
+        announce("compiling, once (about half a minute)")
+    simulation.advance(1)
+    _READY.add(kind)
 
 
 def _compile(simulation: Simulation, progress: Progress) -> float:
     """Have the kernels ready before any file is touched: Ctrl-C ends this at once, with nothing to save. Returns the time, s."""
     started = time.perf_counter()
-    if not simulation.is_compiled():
-        progress.message("compiling, once (about half a minute)")
     try:
-        compile_kernels(simulation.threads, **simulation.case.laws)
+        compile_kernels(simulation.threads, **simulation.case.laws, announce=progress.message)
     except KeyboardInterrupt:
         raise Interrupted("interrupted while compiling; no file was touched") from None
     return time.perf_counter() - started

@@ -6,6 +6,7 @@ import numpy as np
 
 from dilatedem import __version__
 from dilatedem.case import write
+from dilatedem.case.differences import differences
 from dilatedem.case.load import load
 from dilatedem.case.schema import Case
 from dilatedem.errors import CaseError
@@ -120,19 +121,9 @@ def _keys_apart(before: Case, case: Case) -> list[str]:
     """Dotted keys at which a case differs from that of before, but for those in which it may."""
     until, asked = before.time.until.model_dump(), case.time.until.model_dump()
     added = [f"time.until.{name}" for name, value in asked.items() if value and value != until[name]]
-    return [*_differing(before.endless.model_dump(), case.endless.model_dump()), *added]
+    return [*differences(before.endless.model_dump(), case.endless.model_dump()), *added]
 
 
 def _named(keys: list[str]) -> str:
     more = f" and {len(keys) - MOST_NAMED} more" if len(keys) > MOST_NAMED else ""
     return f"{', '.join(keys[:MOST_NAMED])}{more}"
-
-
-def _differing(one, other, key: str = "") -> list[str]:
-    """Dotted keys at which two cases, as plain tables and lists, hold different values."""
-    if isinstance(one, dict) and isinstance(other, dict):
-        names = dict.fromkeys([*one, *other])
-        return [found for name in names for found in _differing(one.get(name), other.get(name), f"{key}.{name}" if key else name)]
-    if isinstance(one, list) and isinstance(other, list) and len(one) == len(other):
-        return [found for i, pair in enumerate(zip(one, other, strict=True)) for found in _differing(*pair, f"{key}.{i}")]
-    return [] if one == other else [key]

@@ -233,7 +233,8 @@ class Simulation:
     def _advance(self, steps: int, *, dt: float) -> Status:
         clock = self.state.clock
         clock.dt[0], goal = dt, int(clock.step[0]) + steps
-        share_among(self.crew.now)
+        if self.threads > 1:
+            share_among(self.crew.now)
         while True:
             status = Status(advance(*self._arguments(), self.span, goal - int(clock.step[0])))
             if status != Status.PAIRS_FULL:

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from dilatedem.sweep import sweep
+from dilatedem.sweeps.sweep import sweep
 
 ROOT = Path(__file__).parents[2]
 CASE = ROOT / "tests" / "cases" / "crowded.toml"

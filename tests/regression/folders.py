@@ -11,6 +11,9 @@ from typer.testing import CliRunner
 
 from dilatedem.cli import app
 from dilatedem.output import checkpoint
+from dilatedem.processes import children
+from dilatedem.processes.children import Answer
+from dilatedem.sweeps import local
 
 ROOT = Path(__file__).parents[2]
 CASES = ROOT / "tests" / "cases"
@@ -21,8 +24,11 @@ EXACT = ("case.toml", "forces.csv", "hits.csv", "energy.csv", "bodies.csv", "ice
 MOVING = ("structures.csv", "structures.pvd")
 
 
-#: stands for the process that runs the cases of a sweep: does nothing, and says that all went well
-NO_WORK = [sys.executable, "-S", "-c", "for _ in open(0): print('{\"code\": 0, \"said\": \"\"}', flush=True)"]
+def without_work(patch, work=lambda order, tell: Answer(0)) -> None:
+    """Have `work` stand for what the processes of a sweep do with a case: nothing, and say that all went well, unless given."""
+    patch.setattr(local, "simulate_here", work)
+    patch.setattr(local.Local, "warm", lambda *_: None)
+    patch.setattr(children, "way_to_start", lambda: "fork")  # copies know the stand-in; the threads of pytest sleep
 
 
 def command(*arguments) -> list[str]:

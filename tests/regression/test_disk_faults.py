@@ -11,10 +11,9 @@ from pathlib import Path
 
 import pytest
 from disk_faults import CASE, DiskFault
-from folders import NO_WORK, assert_same_run, in_process
+from folders import assert_same_run, in_process, without_work
 from test_resume import interrupt_after
 
-from dilatedem import sweep as sweeps
 from dilatedem.case.load import load
 from dilatedem.errors import Interrupted
 from dilatedem.run import loop
@@ -115,7 +114,7 @@ def test_of_figures_and_report(case, whole, tmp_path):
 
 def test_of_a_sweep(case, tmp_path, monkeypatch):
     out = tmp_path / "out"
-    monkeypatch.setattr(sweeps, "WORKER", NO_WORK)
+    without_work(monkeypatch)
     shutil.rmtree(out, ignore_errors=True)
     command = ("sweep", case, "--vary", "contact.friction=0.1,0.2", "--out", out)
     with DiskFault(out) as disk:

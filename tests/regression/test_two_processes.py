@@ -4,7 +4,6 @@ import json
 import os
 import signal
 import subprocess
-import sys
 import time
 from pathlib import Path
 
@@ -172,11 +171,3 @@ def test_the_cases_of_a_killed_sweep_save_their_state_and_end(tmp_path):
     while not all(json.loads((folder / "summary.json").read_text())["status"] == "interrupted" for folder in folders):
         assert time.monotonic() < deadline
         time.sleep(0.02)
-
-
-def test_a_process_without_a_parent_to_watch_is_left_alone():
-    program = "from dilatedem.processes import lifeline; lifeline.watch(); print('here')"
-    told = {**environment(), "DILATEDEM_LIFELINE": "77"}  # no such descriptor
-    done = subprocess.run([sys.executable, "-c", program], env=told, capture_output=True, text=True, check=True)
-    assert (done.stdout, done.stderr) == ("here\n", "")
-    assert "DILATEDEM_LIFELINE" not in os.environ

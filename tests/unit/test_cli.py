@@ -150,7 +150,7 @@ def test_post_and_info(simulation, monkeypatch, tmp_path):
 def test_sweep_passes_its_options(simulation, monkeypatch):
     asked = {}
     table = Path("runs/pile-sweep/sweep.csv")
-    monkeypatch.setattr("dilatedem.sweep.sweep", lambda case, **options: asked.update(options) or table)
+    monkeypatch.setattr("dilatedem.sweeps.sweep.sweep", lambda case, **options: asked.update(options) or table)
     options = "--vary a=1 --vary b=2 --seeds 3 --jobs 2 --set c=1"
     result = invoke("sweep", PILE, *options.split())
     assert result.exit_code == 0

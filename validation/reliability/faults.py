@@ -14,9 +14,10 @@ import sys
 from pathlib import Path
 from random import Random
 
-from dilatedem import sweep as sweeps
+from pytest import MonkeyPatch
+
 from tests.regression.disk_faults import CASE, DiskFault
-from tests.regression.folders import NO_WORK, assert_same_run, in_process
+from tests.regression.folders import assert_same_run, in_process, without_work
 
 COMMANDS = ("run", "resume", "overwrite", "generate", "post", "sweep")
 #: ways to damage a file
@@ -79,7 +80,7 @@ def refuse_all(places: Places, command: str, number: int, every: int) -> dict:
 
     Returns counts of calls and exit codes, and what was wrong: another end than one sentence, or files that cannot be gone on with.
     """
-    sweeps.WORKER = NO_WORK  # its own files, not those of its cases
+    without_work(MonkeyPatch())  # a sweep's own files, not those of its cases
     line = places.prepare(command)
     with DiskFault(places.out) as disk:
         in_process(*line)

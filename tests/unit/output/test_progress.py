@@ -2,7 +2,7 @@ import io
 
 import pytest
 
-from dilatedem.output.progress import Progress, _wall_time
+from dilatedem.output.progress import Progress, wall_time
 
 
 class Terminal(io.StringIO):
@@ -80,4 +80,4 @@ def test_nothing_to_show_without_an_update():
 
 @pytest.mark.parametrize(("seconds", "text"), [(4.6, "5 s"), (125, "2:05"), (3725, "1:02:05")])
 def test_wall_time(seconds, text):
-    assert _wall_time(seconds) == text
+    assert wall_time(seconds) == text

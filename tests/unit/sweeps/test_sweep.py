@@ -1,75 +1,72 @@
 """A sweep checks everything first, has processes run its cases, and tells what became of each.
 
-The simulation is a stand-in that gets its case as a worker does and writes a summary.
+The simulation is a stand-in that gets its case as a process does and writes a summary.
 """
 
 import csv
 import json
+import os
 import signal
 import subprocess
 import sys
 import time
+import tomllib
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
-from dilatedem import sweep as sweeps
 from dilatedem.case import write
 from dilatedem.case.load import load
 from dilatedem.errors import CaseError, SimulationStopped
 from dilatedem.files.lock import Lock
-from dilatedem.sweep import sweep
+from dilatedem.processes.children import Answer
+from dilatedem.results.load import load as load_results
+from dilatedem.sweeps import earlier
+from dilatedem.sweeps.orders import Order, order_of
+from dilatedem.sweeps.plan import plan
+from dilatedem.sweeps.sweep import sweep
+from tests.regression.folders import without_work
 
-PILE = Path(__file__).parents[2] / "cases" / "pile.toml"
+PILE = Path(__file__).parents[3] / "cases" / "pile.toml"
 
-# Stands for `dilatedem.worker`. Friction tells it how to fare with a case.
-WORKER = """\
-import json, os, pathlib, signal, sys, time, tomllib, traceback
-def run(text, folder, resume):
-    case = tomllib.loads(text)
-    assert os.environ["NUMBA_NUM_THREADS"] == "1"
+
+def simulate(order: Order, tell) -> Answer:
+    """Friction tells it how to fare with a case."""
+    case, folder = tomllib.loads(order.case), Path(order.out)
     folder.mkdir(parents=True, exist_ok=True)
-    (folder / "case.toml").write_text(text)
-    fate = case["contact"]["friction"]
-    def summarise(status):
-        speed = case["water"]["velocity"][0]
-        loads = {"pile": {"fx_max_N": speed * 1e5, "fx_mean_N": 1e3, "fy_max_N": 2.0, "fy_min_N": -2.0,
-                          "fh_max_N": speed * 1e5}}
-        summary = {"status": status, "steps": 7, "wall_s": 0.5, "loads": loads, "resumed": resume, "process": os.getpid(),
-                   "energy": {"residual_over_work": 1e-4}}
-        (folder / "summary.json").write_text(json.dumps(summary))
-    def interrupted(*_):
+    (folder / "case.toml").write_text(order.case)
+    (folder / "forces.csv").write_text("time_s,structure,fx_N,fy_N,fh_max_N\n0.01,pile,3000,4000,9000\n0.02,pile,0,0,0\n")
+
+    def summarise(status: str) -> None:
+        loads = {"pile": {"fx_max_N": case["water"]["velocity"][0] * 1e5, "fx_mean_N": 1e3, "fy_max_N": 2.0, "fy_min_N": -2.0}}
+        summary = {"status": status, "steps": 7, "wall_s": 0.5, "loads": loads, "resumed": order.resume, "process": os.getpid()}
+        (folder / "summary.json").write_text(json.dumps(summary | {"energy": {"residual_over_work": 1e-4}}))
+
+    def interrupted(*_) -> None:
         (folder / "restart.h5").touch()
         summarise("interrupted")
         sys.exit(130)
+
     signal.signal(signal.SIGINT, interrupted)
-    if fate == 0.3:
-        summarise("stopped")
-        return 3, "bodies 3 and 7 overlap"
-    if fate == 0.4:
-        raise ZeroDivisionError("a bug")
-    if fate == 0.5:
-        os.kill(os.getpid(), signal.SIGKILL)
-    if fate == 0.6:
-        (folder / "started").touch(); time.sleep(60)
+    match case["contact"]["friction"]:
+        case 0.3:
+            summarise("stopped")
+            return Answer(3, "bodies 3 and 7 overlap")
+        case 0.4:
+            return Answer(1, "Traceback\nZeroDivisionError: a bug")
+        case 0.5:
+            os.kill(os.getpid(), signal.SIGKILL)
+        case 0.6:
+            (folder / "started").touch()
+            time.sleep(60)
     summarise("completed")
-    return 0, ""
-for line in sys.stdin:
-    order = json.loads(line)
-    try:
-        code, said = run(order["case"], pathlib.Path(order["out"]), order["resume"]) if "case" in order else (0, "")
-    except SystemExit as end:
-        code, said = end.code, ""
-    except Exception:
-        code, said = 1, traceback.format_exc()
-    print(json.dumps({"code": code, "said": said}), flush=True)
-"""
-STAND_IN = [sys.executable, "-S", "-c", WORKER]
+    return Answer(0)
 
 
 @pytest.fixture
 def quick(monkeypatch):
-    monkeypatch.setattr(sweeps, "WORKER", STAND_IN)
+    without_work(monkeypatch, simulate)
 
 
 def rows(out: Path) -> list[dict[str, str]]:
@@ -86,9 +83,11 @@ def test_grid_of_completed_cases(quick, tmp_path, capsys):
         f"water.velocity.0={speed}__seed={seed}" for speed in (0.1, 0.2, 0.3) for seed in (1, 2)
     ]
     assert list(found[0]) == [
-        "water.velocity.0", "seed", "run", "status", "steps", "wall_s", "pile_fx_max_N", "pile_fx_mean_N",
+        "water.velocity.0", "seed", "run", "status", "steps", "simulated_s", "wall_s", "pile_fx_max_N", "pile_fx_mean_N",
         "pile_fy_max_N", "pile_fy_min_N", "pile_fh_max_N", "pile_along_max_N", "pile_along_mean_N", "pile_across_max_N",
-        "pile_across_min_N", "pile_mh_max_Nm", "pile_mz_max_Nm", "pile_mz_min_Nm", "residual_over_work", "message",
+        "pile_across_min_N", "pile_mh_max_Nm", "pile_mz_max_Nm", "pile_mz_min_Nm", "pile_fx_min_N", "pile_fy_mean_N",
+        "pile_along_min_N", "pile_across_mean_N", "pile_fh_mean_N", "pile_fh_p5_N", "pile_fh_p50_N", "pile_fh_p90_N",
+        "pile_fh_p95_N", "pile_fh_p99_N", "residual_over_work", "message",
     ]
     assert {row["status"] for row in found} == {"completed"}
     last = found[-1]
@@ -124,6 +123,9 @@ def test_vectors_and_words_vary_too(quick, tmp_path):
         ("[0.1, 0]", "open"), ("[0.1, 0]", "wall"), ("[0.2, 0]", "open"), ("[0.2, 0]", "wall")
     ]
     assert found[1]["run"] == "water.velocity=0.1,0__domain.x_boundary=wall"
+    assert list(found[0])[:5] == ["water.velocity", "water.velocity.0", "water.velocity.1", "domain.x_boundary", "seed"]
+    assert (found[2]["water.velocity.0"], found[2]["water.velocity.1"]) == ("0.2", "0")
+    assert load_results(tmp_path / "s").keys == ["water.velocity", "domain.x_boundary"]
 
 
 def test_everything_is_checked_before_anything_is_written(quick, tmp_path):
@@ -133,7 +135,7 @@ def test_everything_is_checked_before_anything_is_written(quick, tmp_path):
         ({"vary": ["contact.friction=0.1,-0.2"]}, "--vary contact.friction: contact.friction = -0.2: must"),
         ({"vary": ["contact.fricton=1"]}, "--vary contact.fricton: contact.fricton: unknown key; did you"),
         ({"seeds": 2, "overrides": ["ice.density=0"]}, "--set ice.density: ice.density = 0: must be greater"),
-        ({"seeds": 2, "scheduler": "tcp://a"}, "--scheduler tcp://a: sweeps over a cluster are not"),
+        ({"seeds": 2, "scheduler": "tcp://a", "jobs": 2}, "give either --jobs or --scheduler"),
         ({"seeds": 2, "vary": ["field.seed=1,2"]}, "give either --vary field.seed or --seeds, not both"),
         ({"vary": ["title=a/b,a*b"]}, "two cases would share the folder title=a_b"),
     ]:
@@ -144,6 +146,38 @@ def test_everything_is_checked_before_anything_is_written(quick, tmp_path):
         sweep(PILE, vary=["contact.friction=-30:-1:1"], out=out)
     assert str(caught.value).splitlines()[-1] == "... and 10 more"
     assert not out.exists()
+
+
+def test_the_same_command_again_goes_on_or_has_nothing_to_do(quick, tmp_path, capsys):
+    sweep(PILE, vary=["water.velocity.0=0.1,0.2"], out=tmp_path)
+    table = (tmp_path / "sweep.csv").read_text()
+    second, before = rows(tmp_path)[1], [path.stat().st_mtime_ns for path in sorted(tmp_path.rglob("*/*"))]
+    sweep(PILE, vary=["water.velocity.0=0.1,0.2"], out=tmp_path)
+    assert "2 cases in" in (said := capsys.readouterr().err) and said.endswith("all of them were completed before: nothing to do\n")
+    assert [path.stat().st_mtime_ns for path in sorted(tmp_path.rglob("*/*"))] == before
+    (tmp_path / second["run"] / "summary.json").write_text('{"status": "running"}')
+    (tmp_path / second["run"] / "restart.h5").touch()
+    sweep(PILE, vary=["water.velocity.0=0.1,0.2"], seeds=None, out=tmp_path)
+    assert "[1/1] water.velocity.0=0.2: completed" in capsys.readouterr().err
+    assert (tmp_path / "sweep.csv").read_text() == table
+    with pytest.raises(CaseError, match="is not the case of this sweep: it has another ice.density; choose another --out"):
+        sweep(PILE, vary=["water.velocity.0=0.1,0.2"], overrides=["ice.density=900"], out=tmp_path)
+
+
+def test_more_seeds_go_on_with_fewer(quick, tmp_path):
+    sweep(PILE, seeds=1, out=tmp_path)
+    sweep(PILE, seeds=3, out=tmp_path)
+    assert [row["status"] for row in rows(tmp_path)] == ["completed"] * 3
+    with pytest.raises(CaseError, match="holds a sweep already; go on with --resume"):
+        sweep(PILE, seeds=2, out=tmp_path)
+
+
+def test_columns_that_hold_for_any_direction_of_the_current(quick, tmp_path):
+    sweep(PILE, seeds=1, out=tmp_path)
+    [row] = rows(tmp_path)
+    found = {name.removeprefix("pile_"): float(cell) for name, cell in row.items() if name.startswith("pile_fh_") and cell}
+    percentiles = {f"fh_p{share}_N": 90.0 * share for share in (5, 50, 90, 95, 99)}  # between 0 and 9000 N
+    assert found == pytest.approx({"fh_mean_N": 2500.0, **percentiles})
 
 
 def test_a_folder_with_runs_is_not_overwritten(quick, tmp_path):
@@ -169,13 +203,13 @@ def test_resume_skips_the_finished_and_goes_on_with_the_others(quick, tmp_path):
 
 
 def test_order_of_a_case(tmp_path):
-    [job] = sweeps.plan(PILE, vary=["ice.density=900"], out=tmp_path)
-    order = {"case": write.dump(job.case), "out": str(job.folder), "resume": False, "overwrite": False}
-    assert sweeps._order(job) == order
+    [job] = plan(PILE, vary=["ice.density=900"], out=tmp_path)
+    order = Order(write.dump(job.case), str(job.folder), laws=job.case.laws)
+    assert order_of(job) == order
     job.folder.mkdir()
-    assert sweeps._order(job) == order | {"overwrite": True}
+    assert order_of(job) == replace(order, overwrite=True)
     (job.folder / "restart.h5").touch()
-    assert sweeps._order(job) == order | {"resume": True}
+    assert order_of(job) == replace(order, resume=True)
 
 
 def test_a_process_runs_one_case_after_another(quick, tmp_path):
@@ -188,16 +222,15 @@ def test_a_process_runs_one_case_after_another(quick, tmp_path):
 def test_an_interrupt_lets_the_running_cases_save_their_state(tmp_path, signal_number):
     out = tmp_path / "sweep"
     program = (
-        "import sys\nsys.path.insert(0, sys.argv.pop(1))\n"
-        "import test_sweep\nfrom dilatedem import cli, sweep\n"
-        "sweep.WORKER = test_sweep.STAND_IN\ncli.main()"
+        "import sys\nsys.path[:0] = [sys.argv.pop(1), sys.argv.pop(1)]\n"
+        "import test_sweep, pytest\nfrom dilatedem import cli\n"
+        "test_sweep.without_work(pytest.MonkeyPatch(), test_sweep.simulate)\ncli.main()"
     )
     arguments = ["sweep", PILE, "--vary", "contact.friction=0.1,0.6", "--seeds", "2", "--jobs", "3"]
     arguments += ["--out", out]
+    places = [str(Path(__file__).parents[depth]) for depth in (0, 3)]
     process = subprocess.Popen(
-        [sys.executable, "-c", program, str(Path(__file__).parent), *map(str, arguments)],
-        stderr=subprocess.PIPE,
-        text=True,
+        [sys.executable, "-c", program, *places, *map(str, arguments)], stderr=subprocess.PIPE, text=True
     )
     sleeping = [out / f"contact.friction=0.6__seed={seed}" for seed in (1, 2)]
     for _ in range(1200):
@@ -237,7 +270,7 @@ def test_a_sweep_follows_no_links(quick, tmp_path):
 
 
 def test_a_case_that_still_runs_is_not_started_again(quick, tmp_path, monkeypatch):
-    monkeypatch.setattr(sweeps, "PATIENCE_S", 0.3)
+    monkeypatch.setattr(earlier, "PATIENCE_S", 0.3)
     sweep(PILE, vary=["contact.friction=0.1,0.2"], out=tmp_path)
     with Lock(tmp_path / "contact.friction=0.2") as held:
         held.keep()
