@@ -207,7 +207,7 @@ def sweep(
         int | None, typer.Option(min=1, metavar="N", help="Cases at a time, one a core unless given.")
     ] = None,
     scheduler: Annotated[
-        str | None, typer.Option(metavar="ADDRESS", help="Run on a cluster (not available yet).")
+        str | None, typer.Option(metavar="ADDRESS", help="Run on a Dask cluster, as in tcp://host:8786.")
     ] = None,
     out: Annotated[
         Path | None,
@@ -217,7 +217,7 @@ def sweep(
     ] = None,
     overrides: SetOption = None,
     resume: Annotated[
-        bool, typer.Option("--resume", help="Skip finished runs, go on with the others.")
+        bool, typer.Option("--resume", help="Go on with a sweep of other cases, too.")
     ] = False,
 ) -> None:
     """Run a grid of cases, each in its own folder, and gather their loads in sweep.csv.

@@ -7,8 +7,10 @@ import pytest
 from dilatedem.case import write
 from dilatedem.case.load import load
 from dilatedem.processes.interruption import Interruption
+from dilatedem.results.sweep import read_rows
 from dilatedem.run import loop
 from dilatedem.sweeps.orders import Order, outcome
+from dilatedem.sweeps.sweep import sweep
 from dilatedem.sweeps.work import simulate
 from tests.regression.folders import CASES, assert_same_run
 
@@ -42,6 +44,19 @@ def test_a_run_that_is_asked_to_stop_in_another_thread_saves_its_state(tmp_path)
         thread.join()
     assert [outcome(answer, stopping=False)[0] for answer in answers] == ["interrupted", "completed"]
     assert_same_run(tmp_path / "order", tmp_path / "whole")
+
+
+def test_runs_that_were_made_one_by_one_are_gathered_by_a_sweep(tmp_path, capsys):
+    """As tasks of an array of a batch system make them: docs/clusters.md."""
+    for seed in ("1", "2"):
+        loop.run(load(CASES / "crowded.toml", [*SHORT, f"field.seed={seed}"]), tmp_path / f"seed={seed}", quiet=True)
+    sweep(CASES / "crowded.toml", seeds=2, out=tmp_path, overrides=[*SHORT, "field.seed=1"], resume=True)
+    assert capsys.readouterr().err.endswith("all of them were completed before: nothing to do\n")
+    header, rows = read_rows(tmp_path)
+    assert [(row["run"], row["status"], float(row["simulated_s"])) for row in rows] == [
+        (f"seed={n}", "completed", pytest.approx(0.1)) for n in (1, 2)
+    ]
+    assert all(float(row["total_fh_max_N"]) >= float(row["total_fh_p99_N"]) for row in rows)
 
 
 def test_what_is_wrong_is_told_and_what_nobody_foresaw_with_its_traceback(tmp_path, monkeypatch):
