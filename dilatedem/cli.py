@@ -219,6 +219,9 @@ def sweep(
     resume: Annotated[
         bool, typer.Option("--resume", help="Go on with a sweep of other cases, too.")
     ] = False,
+    dry_run: Annotated[
+        bool, typer.Option("--dry-run", help="Say how many cases, floes, wall time and disk it takes; run nothing.")
+    ] = False,
 ) -> None:
     """Run a grid of cases, each in its own folder, and gather their loads in sweep.csv.
 
@@ -227,14 +230,21 @@ def sweep(
     - `dilatedem sweep cases/pile.toml --vary water.velocity.0=0.1:1.0:0.1 --seeds 5`
     - `dilatedem sweep cases/pile.toml --vary water.velocity=[0.3,0],[0.3,0.1]`
     - `dilatedem sweep cases/pile.toml --vary field.floe_size=1.8,2.8 --vary contact.friction=0:0.3:0.1`
+    - `dilatedem sweep cases/pile.toml --seeds 100 --dry-run`
+
+    The same command again goes on, or has nothing to do.
     """
+    folder = out or Path(f"{_default_out(case)}-sweep")
+    asked = {"vary": vary or (), "seeds": seeds, "jobs": jobs, "scheduler": scheduler, "out": folder, "resume": resume}
+    asked["overrides"] = overrides or ()
+    if dry_run:
+        from dilatedem.sweeps.foretell import foretell
+
+        _print_pairs(foretell(case, **asked))
+        return
     from dilatedem.sweeps.sweep import sweep as run_grid
 
-    folder = out or Path(f"{_default_out(case)}-sweep")
-    table = run_grid(
-        case, vary=vary or (), seeds=seeds, jobs=jobs, scheduler=scheduler, out=folder, resume=resume,
-        overrides=overrides or (),
-    )
+    table = run_grid(case, **asked)
     say(f"{table}: all cases completed; dilatedem post {folder} draws them")
 
 

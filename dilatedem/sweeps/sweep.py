@@ -62,7 +62,7 @@ def _executor(todo: list[Job], jobs: int | None, scheduler: str | None, lock: Lo
         from dilatedem.sweeps.cluster import Cluster  # no other sweep needs Dask
 
         return Cluster(scheduler)
-    return Local(min(jobs or _core_count(), max(waiting, 1)), leave=lock.leave)
+    return Local(min(jobs or core_count(), max(waiting, 1)), leave=lock.leave)
 
 
 def _sweep(todo: list[Job], out: Path, executor: Executor) -> Path:
@@ -104,5 +104,6 @@ def _done_before(count: int, of: int) -> str:
     return f"{count} of them were completed before" if count else "none of them begun"
 
 
-def _core_count() -> int:
+def core_count() -> int:
+    """Cores that this process may use."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1

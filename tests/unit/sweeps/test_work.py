@@ -56,7 +56,7 @@ def test_runs_that_were_made_one_by_one_are_gathered_by_a_sweep(tmp_path, capsys
     assert [(row["run"], row["status"], float(row["simulated_s"])) for row in rows] == [
         (f"seed={n}", "completed", pytest.approx(0.1)) for n in (1, 2)
     ]
-    assert all(float(row["total_fh_max_N"]) >= float(row["total_fh_p99_N"]) for row in rows)
+    assert all(float(row["pile_fh_max_N"]) >= float(row["pile_fh_p99_N"]) for row in rows)
 
 
 def test_what_is_wrong_is_told_and_what_nobody_foresaw_with_its_traceback(tmp_path, monkeypatch):
