@@ -49,6 +49,8 @@ class Cluster:
         self._client.close(timeout=CONNECT_S)
 
     def carry_out(self, orders: Sequence[Order], progress: Progress) -> Iterator[tuple[int, Answer]]:
+        workers = len(self._client.scheduler_info(n_workers=-1)["workers"])
+        progress.message(f"workers at {self._address}: {workers or 'none yet; waiting for some'}")
         left = {number: self._submit(number, order) for number, order in enumerate(orders)}
         asked = False
         while left and not (self._killed or self.fault):

@@ -2,7 +2,9 @@
 
 from collections.abc import Callable, Iterator, Sequence
 
+from dilatedem.errors import INTERRUPTED
 from dilatedem.processes.children import Answer, Children
+from dilatedem.processes.interrupts import end_at_once
 from dilatedem.sweeps.orders import Order
 from dilatedem.sweeps.progress import Progress
 
@@ -25,6 +27,11 @@ class Local(Children):
         super().interrupt()
         if self._warming:  # there is nothing to save
             raise KeyboardInterrupt
+
+    def kill(self) -> None:
+        super().kill()
+        if self._warming:  # the exception met a line of Numba from which nothing can be raised
+            end_at_once(INTERRUPTED)
 
     def warm(self, orders: Sequence[Order], progress: Progress) -> None:
         """Compile or load the kernels of all orders, before any process is made that would have to do it again."""
