@@ -154,19 +154,30 @@ def check(case: CaseArgument, overrides: SetOption = None) -> None:
 
 @app.command()
 @known_faults
-def post(runs: RunsArgument) -> None:
+def post(
+    runs: RunsArgument,
+    project: Annotated[str, typer.Option(metavar="TEXT", help="Project, for the front page of reports.")] = "",
+    document: Annotated[str, typer.Option(metavar="TEXT", help="Number and revision of the document.")] = "",
+    prepared_by: Annotated[str, typer.Option(metavar="NAME", help="Who made it; a line to fill in unless given.")] = "",
+    checked_by: Annotated[str, typer.Option(metavar="NAME", help="Who checked it.")] = "",
+    approved_by: Annotated[str, typer.Option(metavar="NAME", help="Who approved it.")] = "",
+) -> None:
     """Make figures, summary.json and report.html from the files of runs or sweeps, and nothing else.
 
     Examples:
 
     - `dilatedem post runs/pile`
+    - `dilatedem post runs/pile --project "Harbour light" --prepared-by "A. Maker" --checked-by "C. Reader"`
     - `dilatedem post runs/pile-sweep`
     """
     from dilatedem.post import post as make_figures
     from dilatedem.results.doubts import doubts
     from dilatedem.results.files import read_summary
 
-    for path in make_figures(list(runs)):
+    signed = {
+        "project": project, "document": document, "prepared_by": prepared_by, "checked_by": checked_by, "approved_by": approved_by,
+    }  # fmt: skip
+    for path in make_figures(list(runs), **signed):
         if path.name == "report.html":
             _say("\n".join([str(path), *_cautions(doubts(read_summary(path.with_name("summary.json"))))]))
 
