@@ -124,7 +124,7 @@
       pen.textAlign = "right";
       pen.textBaseline = "middle";
       pen.lineWidth = 1;
-      for (const value of ticks(low, low + span, 3)) {
+      for (const value of ticks(low, low + span, 4)) {
         pen.strokeStyle = value === 0 ? INK : GRID;
         pen.beginPath(); pen.moveTo(LEFT, y(value)); pen.lineTo(width - RIGHT, y(value)); pen.stroke();
         pen.fillText(digits(value), LEFT - 6, y(value));
