@@ -77,7 +77,7 @@ def _step(run: RunFolder) -> Check | None:
 
 
 def _half_step(run: RunFolder) -> Check:
-    what, told = "half the time step changes the highest hit by", run.summary.get("error_check") or {}
+    what, told = "change of the highest hit with half the time step", run.summary.get("error_check") or {}
     change = (told.get("change") or {}).get("fh_max")
     asked = f"at most {number(100.0 * LARGEST_CHANGE)} %"
     if change is None:

@@ -5,6 +5,7 @@ import re
 
 import pypdf
 import pytest
+from test_post_sweep import write_sweep
 
 from dilatedem.post import post
 from tests import chromium
@@ -185,3 +186,24 @@ def test_no_figure_is_higher_than_a_page(page, report, paper):
     widths = page.value("[...document.querySelectorAll('figure svg')].map((each) => each.getBoundingClientRect().right)")
     page.call("Emulation.setEmulatedMedia", media="")
     assert len(heights) > 5 and max(heights) < height and max(widths) <= width + 0.5
+
+
+@pytest.fixture(scope="module")
+def sweep_report(tmp_path_factory):
+    folder = write_sweep(tmp_path_factory.mktemp("browser") / "sweep")
+    post([folder])
+    return folder / "report.html"
+
+
+def test_report_of_a_sweep_fits_a_telephone_and_paper(page, sweep_report):
+    page.open(sweep_report, width=390, height=844)
+    assert page.value("document.documentElement.scrollWidth") <= 390
+    assert page.complaints() == [] and page.asked_for() == [sweep_report.as_uri()]
+    texts = [sheet.extract_text() for sheet in pypdf.PdfReader(io.BytesIO(page.pdf(*A4))).pages]
+    assert all(f"page {number} of {len(texts)}" in text for number, text in enumerate(texts, start=1))
+    across = round((A4[0] - 30) / 25.4 * 96)
+    page.call("Emulation.setEmulatedMedia", media="print")
+    page.call("Emulation.setDeviceMetricsOverride", width=across, height=900, deviceScaleFactor=1, mobile=False)
+    right = page.value("Math.max(...[...document.querySelectorAll('table')].map((each) => each.getBoundingClientRect().right))")
+    page.call("Emulation.setEmulatedMedia", media="")
+    assert right <= across + 0.5

@@ -85,10 +85,10 @@ def verdict(run, start):
 def test_checks_hold_or_ask_for_a_look(run):
     assert verdict(run, "the run came") == FINE
     assert verdict(replace(run, summary=run.summary | {"status": "running"}), "the run came") == LOOK
-    assert verdict(run, "half the time step") == UNKNOWN
+    assert verdict(run, "change of the highest hit") == UNKNOWN
     for change, wanted in ((-0.002, FINE), (0.02, LOOK), (-0.02, LOOK)):
         told = {"error_check": {"structure": "pile", "change": {"fh_max": change}}}
-        assert verdict(replace(run, summary=run.summary | told), "half the time step") == wanted
+        assert verdict(replace(run, summary=run.summary | told), "change of the highest hit") == wanted
     for overlap, wanted in ((0.01, FINE), (0.041, LOOK)):
         told = {"contact": {"largest_overlap_m": overlap, "model": "liu2015"}}
         assert verdict(replace(run, summary=run.summary | told), "deepest overlap") == wanted
