@@ -36,11 +36,13 @@ def checks(run: RunFolder) -> list[Check]:
 
 
 def verdict_words(found: list[Check]) -> str:
-    """How many of the checks hold, and which ask for a look, for the front page."""
-    look = [check.what for check in found if check.verdict == LOOK]
+    """How many of the checks hold, and which ask for a look or were not made, for the front page."""
     held = sum(check.verdict == FINE for check in found)
-    asked = f" To be looked at, see Checks and Limits: {'; '.join(look)}." if look else ""
-    return f"{held} of {len(found)} checks hold.{asked}"
+    words = [f"{held} of {len(found)} checks hold."]
+    for verdict, what in ((LOOK, "To be looked at, see Checks and Limits"), (UNKNOWN, "Not known")):
+        named = [check.what for check in found if check.verdict == verdict]
+        words += [f"{what}: {'; '.join(named)}."] if named else []
+    return " ".join(words)
 
 
 def _whole(run: RunFolder) -> Check:
