@@ -2,6 +2,7 @@
 
 import base64
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -83,3 +84,12 @@ def test_json_may_stand_in_a_page():
     text = as_json({"name": "</script><b>\u2028"})
     assert "<" not in text and "\u2028" not in text
     assert json.loads(text) == {"name": "</script><b>\u2028"}
+
+
+def test_structures_go_along_where_they_move(run):
+    time = np.array([0.0, 10.0])
+    motion = {"time_s": time, "x_m": 0.2 * time, "y_m": 0.0 * time, "yaw_rad": 0.0 * time}
+    pictures = moving_plan(replace(run, motion={"pile": motion}))["pictures"]
+    middles = [np.mean(one["structures"][0]["outline"], axis=0)[0] for one in pictures]
+    assert np.diff(middles) == pytest.approx([1.0, 1.0], abs=2e-3)
+    assert "structures" not in moving_plan(run)["pictures"][0]  # of one that stands still once is enough
