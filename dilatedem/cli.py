@@ -154,12 +154,18 @@ def post(
         typer.Option("--format", metavar="KIND", help="Of figures: png, svg, pdf; again for more. png and svg unless given."),
     ] = None,
     show: Annotated[bool, typer.Option("--open", help="Open each report in the browser.")] = False,
+    project: Annotated[str, typer.Option(metavar="TEXT", help="Project, for the front page of reports.")] = "",
+    document: Annotated[str, typer.Option(metavar="TEXT", help="Number and revision of the document.")] = "",
+    prepared_by: Annotated[str, typer.Option(metavar="NAME", help="Who made it; a line to fill in unless given.")] = "",
+    checked_by: Annotated[str, typer.Option(metavar="NAME", help="Who checked it.")] = "",
+    approved_by: Annotated[str, typer.Option(metavar="NAME", help="Who approved it.")] = "",
 ) -> None:
     """Make figures, summary.json and report.html from the files of runs or sweeps, and nothing else.
 
     Examples:
 
     - `dilatedem post runs/pile`
+    - `dilatedem post runs/pile --project "Harbour light" --prepared-by "A. Maker" --checked-by "C. Reader"`
     - `dilatedem post runs/pile-sweep`
     - `dilatedem post runs/pile --format pdf --open`
     """
@@ -168,8 +174,11 @@ def post(
     from dilatedem.results.doubts import doubts
     from dilatedem.results.files import read_summary
 
+    signed = {
+        "project": project, "document": document, "prepared_by": prepared_by, "checked_by": checked_by, "approved_by": approved_by,
+    }  # fmt: skip
     with written_as(formats):
-        written = make_figures(list(runs))
+        written = make_figures(list(runs), **signed)
     for path in written:
         if path.name == "report.html":
             if show:

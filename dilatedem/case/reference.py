@@ -1,6 +1,6 @@
 """The page that says what every key of the case file means, made from the schema.
 
-`python -m dilatedem.case.reference` rewrites docs/case-file.md of the source tree.
+`python -m dilatedem.case.reference` rewrites docs/case-file.md of the source tree, and the meanings that reports give.
 """
 
 from pathlib import Path
@@ -8,6 +8,7 @@ from typing import Any
 
 from pydantic.fields import FieldInfo
 
+from dilatedem.case import meanings
 from dilatedem.case.schema import DISTRIBUTIONS, LISTED, STRUCTURES, SUPPORTS, TABLES, Case, json_schema
 from dilatedem.keys import OTHER_RANGE, RANGES, Table
 
@@ -141,11 +142,12 @@ def _plain(text: str) -> str:
 
 
 def main() -> None:
-    """Rewrites the page of the source tree that this module belongs to."""
-    path = Path(__file__).resolve().parents[2] / PAGE
-    path.parent.mkdir(exist_ok=True)
-    path.write_text(page(), encoding="utf-8")
-    print(path)
+    """Rewrites the page, and the meanings, of the source tree that this module belongs to."""
+    for place, text in ((PAGE, page()), (meanings.FILE, meanings.text())):
+        path = Path(__file__).resolve().parents[2] / place
+        path.parent.mkdir(exist_ok=True)
+        path.write_text(text, encoding="utf-8")
+        print(path)
 
 
 if __name__ == "__main__":

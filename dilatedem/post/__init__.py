@@ -12,16 +12,19 @@ from pathlib import Path
 __all__ = ["info", "post"]
 
 
-def post(run_dirs: Sequence[Path]) -> list[Path]:
+def post(run_dirs: Sequence[Path], **signed: str) -> list[Path]:
     """Write figures/, report.html and the load statistics (key `post` of summary.json) of each folder.
 
     run_dirs: run folders (with a case.toml), sweep folders (with a sweep.csv), or both. Several run folders
         given together are also compared, in a folder `comparison` beside them.
+    signed: for the front page of reports of runs: project, document, prepared_by, checked_by, approved_by; lines to be filled in
+        by hand unless given.
     Returns the paths written, in the order written. Raises CaseError for a folder that is neither.
     """
     from dilatedem.post.folders import post_folders  # matplotlib and the report, only when they are wanted
+    from dilatedem.post.front import Signed
 
-    return post_folders([Path(folder) for folder in run_dirs])
+    return post_folders([Path(folder) for folder in run_dirs], Signed(**signed))
 
 
 def info(run_dir: Path) -> str:

@@ -25,6 +25,7 @@ from dilatedem.post.labels import number
 from dilatedem.results.tables import Table
 
 STORED = ("kinetic", "gravity", "buoyancy", "elastic")  # columns of what is stored
+ROUND_OFF = 1e-18  # of what is stored: terms that stay below are left out
 # label, columns added up, colour, line style
 TERMS = (
     ("work of the current (drag)", ("work_drag",), BLUE, "-"),
@@ -47,7 +48,8 @@ def energy_figure(energy: Table, labels: Mapping[str, str] = MappingProxyType({}
     others = sorted(set(energy) - shown)
     further = [(labels.get(name, name.replace("_", " ")), (name,), SERIES[n % len(SERIES)], "-.") for n, name in enumerate(others)]
     terms = [(label, energy_change(energy, names), *look) for label, names, *look in (*known, *further)]
-    terms = [term for term in terms if np.any(term[1])]
+    stored = sum(float(np.abs(energy[name]).max(initial=0.0)) for name in STORED if name in energy)
+    terms = [term for term in terms if np.abs(term[1]).max(initial=0.0) > ROUND_OFF * stored]
     largest = max((float(np.abs(values).max()) for _, values, *_ in terms), default=0.0)
     scale, unit = scale_of(largest)
     figure = new_figure(8.2, 5.4)

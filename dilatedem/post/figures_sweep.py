@@ -107,7 +107,7 @@ def draw_line(axes: Axes, groups: list[Group], structure: str, quantity: str, lo
         spread.append(float(loads.std(ddof=1)) if len(loads) > 1 else 0.0)
         if len(loads) > 1:
             dots = {"color": look["color"], "alpha": 0.5, "markersize": 3.5, "markeredgewidth": 0}
-            axes.plot([group.place] * len(loads), loads, "o", zorder=2, **dots)
+            axes.plot([group.place] * len(loads), loads, look["marker"], zorder=2, **dots)
     if any(spread):
         axes.errorbar(place, mean, yerr=spread, capsize=3.0, elinewidth=1.0, zorder=3, **look)
     else:

@@ -21,6 +21,7 @@ from dilatedem.post.figures_loads import force_figure, peak_figure
 from dilatedem.post.figures_map import load_around_figure, load_map_figure
 from dilatedem.post.figures_motion import motion_figure
 from dilatedem.post.figures_sweep import sweep_figure
+from dilatedem.post.front import Signed
 from dilatedem.post.harm import COMPARISON_TABLE, refuse_harm, refuse_harm_beside
 from dilatedem.post.loads import angular_statistics, event_statistics, hit_statistics, hit_threshold, load_statistics
 from dilatedem.post.read import RunFolder, open_run
@@ -34,7 +35,7 @@ from dilatedem.results.tables import row_count
 MOMENTS = (0.0, 0.5, 1.0)  # of the run's time that the plan views show, as in Liu 2015, Fig. 10
 
 
-def post_folders(folders: list[Path]) -> list[Path]:
+def post_folders(folders: list[Path], signed: Signed | None = None) -> list[Path]:
     """See dilatedem.post.post. Every folder is checked before anything is written."""
     # `dilatedem post runs/*` meets the comparison that it wrote the last time.
     folders = [folder for folder in dict.fromkeys(folders) if not (folder / COMPARISON_TABLE).is_file()]
@@ -46,10 +47,10 @@ def post_folders(folders: list[Path]) -> list[Path]:
         if beside:
             refuse_harm_beside(beside)
     with told_as(SimulationStopped):
-        return _post_all(folders, beside)
+        return _post_all(folders, beside, signed)
 
 
-def _post_all(folders: list[Path], beside: Path | None) -> list[Path]:
+def _post_all(folders: list[Path], beside: Path | None, signed: Signed | None) -> list[Path]:
     """beside: the folder of a comparison, None for none"""
     written: list[Path] = []
     runs: list[RunFolder] = []
@@ -58,7 +59,7 @@ def _post_all(folders: list[Path], beside: Path | None) -> list[Path]:
             written += post_sweep(read_sweep(folder))
         else:
             run = open_run(folder)
-            written += post_run(run)
+            written += post_run(run, signed)
             runs.append(run)
     if beside:
         beside.mkdir(exist_ok=True)
@@ -74,13 +75,13 @@ def common_folder(runs: list[Path]) -> Path:
     return Path(os.path.commonpath(parents))
 
 
-def post_run(run: RunFolder) -> list[Path]:
-    """Figures, statistics and report of one run."""
+def post_run(run: RunFolder, signed: Signed | None = None) -> list[Path]:
+    """Figures, statistics and report of one run; signed: what the report's front page says of who made it."""
     statistics = run_statistics(run)
     written, figures = save_all(run_drawings(run), run.path / "figures")
     if merge_summary(run.path / "summary.json", statistics):
         written.append(run.path / "summary.json")
-    written.append(report.write_run_report(run, statistics, figures))
+    written.append(report.write_run_report(run, statistics, figures, signed))
     return written
 
 

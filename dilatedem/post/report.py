@@ -1,40 +1,60 @@
-"""report.html: one file that shows a run, or a sweep, to somebody who was not there."""
+"""report.html: one file that shows a run, or a sweep, to somebody who was not there, and that somebody else can sign."""
 
 from __future__ import annotations
 
 import math
-from copy import deepcopy
+import re
 from pathlib import Path
 from typing import Any
 
 import jinja2
-import numpy as np
+from markupsafe import Markup
 
 from dilatedem.files.atomic import write_text
-from dilatedem.post.canvas import Drawing
+from dilatedem.post.canvas import Drawing, file_name
+from dilatedem.post.checks import checks, verdict_words
 from dilatedem.post.events import event_rows, pressure_words
 from dilatedem.post.figures_sweep import group_runs
-from dilatedem.post.labels import axis_label, describe_key, flatten, kilo, number, show
+from dilatedem.post.front import Signed, basis_rows, headline, identity_rows
+from dilatedem.post.histories import COLUMNS, history_data
+from dilatedem.post.ice import field_rows
+from dilatedem.post.inputs import input_groups
+from dilatedem.post.iso import SHARE, bound_of, bound_rows
+from dilatedem.post.labels import axis_label, number, show
 from dilatedem.post.limits import limits
+from dilatedem.post.moving import moving_plan
 from dilatedem.post.overview import status_words
+from dilatedem.post.pack import as_json
 from dilatedem.post.read import RunFolder
 from dilatedem.post.sweeps import Sweep, relative, value_words
+from dilatedem.post.tables import (
+    contact_table,
+    energy_rows,
+    fact_rows,
+    load_rows,
+    motion_rows,
+    quantile_table,
+    step_rows,
+    unchecked,
+    version_rows,
+)
 from dilatedem.results.doubts import doubts
 from dilatedem.results.files import read_summary
 
-BODIES_LISTED = 5  # more explicit bodies than this are counted in the case table, not listed
-PAIRS = {"ice_ice": "floe on floe", "ice_structure": "floe on structure"}
+TEMPLATES = Path(__file__).with_name("templates")
+#: first words of the names of figures, by the section of the report that shows them; all others are of loads
+SECTIONS = {"ice": ("field", "plan", "speed"), "loads": (), "events": ("hit_",), "energy": ("energy",)}
 
 ONE_HIT = (
     "These are no error bars of the run. They say how far this one hit, given the state before it, depends on the step; another "
     "history of the ice, of another step or another seed, has another highest hit. For that spread, run several seeds."
 )
 
-Rows = list[list[str]]
+Figures = list[tuple[Drawing, str]]
 
 
-def write_run_report(run: RunFolder, statistics: dict[str, Any], figures: list[tuple[Drawing, str]]) -> Path:
-    """Write report.html of a run. statistics: as in summary.json under `post`."""
+def write_run_report(run: RunFolder, statistics: dict[str, Any], figures: Figures, signed: Signed | None = None) -> Path:
+    """Write report.html of a run. statistics: as in summary.json under `post`; signed: what the front page says of who made it."""
     return render(
         "run.html",
         run.path / "report.html",
@@ -42,23 +62,53 @@ def write_run_report(run: RunFolder, statistics: dict[str, Any], figures: list[t
         status=status_words(run),
         message=run.summary.get("message") or "",
         doubts=statistics["doubts"],
-        loads=[
-            {
-                "name": name, "rows": load_rows(entry, run.moment_level) + motion_rows(run.summary, name),
-                "quantiles": quantile_table(entry), "step": step_rows(run.summary, name), "one_hit": ONE_HIT,
-                "events": event_rows(run, name), "pressures": pressure_words(run, name, entry),
-            }  # fmt: skip
-            for name, entry in statistics["loads"].items()
-        ],
+        signed=signed or Signed(),
+        identity=identity_rows(run),
+        basis=basis_rows(run),
+        headline=headline(run, statistics),
+        loads=[load_section(run, name, entry) for name, entry in statistics["loads"].items()],
+        one_hit=ONE_HIT,
+        checks=(found := checks(run)),
+        verdict=verdict_words(found),
         unchecked=unchecked(run.summary),
-        figures=inline(figures),
+        limits=limits(run),
+        field=field_rows(run),
+        figures=by_section(figures, live_data(run, {drawing.name for drawing, _ in figures})),
         energy=energy_rows(run, statistics),
         contacts=contact_table(run),
-        facts=fact_rows(run),
-        case=case_rows(run.case),
+        inputs=input_groups(run.case),
+        facts_of_run=fact_rows(run),
         versions=version_rows(run.summary),
-        limits=limits(run),
     )
+
+
+def load_section(run: RunFolder, name: str, entry: dict[str, Any]) -> dict[str, Any]:
+    """The tables of one structure; entry: its statistics."""
+    rows, bound = load_rows(entry, run.moment_level), bound_of(run, name)
+    fh = entry.get("fh")
+    return {
+        "name": name, "rows": rows + motion_rows(run.summary, name) if rows else [], "quantiles": quantile_table(entry),
+        "bound": bound_rows(bound, fh["peak_N"], fh["quantiles_of_window_maxima_N"][SHARE]) if bound and fh else [],
+        "step": step_rows(run.summary, name), "events": event_rows(run, name), "pressures": pressure_words(run, name, entry),
+    }  # fmt: skip
+
+
+def live_data(run: RunFolder, drawn: set[str]) -> dict[str, tuple[str, dict[str, Any]]]:
+    """What the script of the page makes of figures, by their name: its kind and its data."""
+    names = {name: f"force_{file_name(name)}" for name in run.forces if f"force_{file_name(name)}" in drawn}
+    live = {figure: ("history", history_data(name, run.forces[name], COLUMNS // len(names))) for name, figure in names.items()}
+    moving = moving_plan(run) if "plan" in drawn else None
+    return live | ({"plan": ("plan", moving)} if moving else {})
+
+
+def by_section(figures: Figures, live: dict[str, tuple[str, dict[str, Any]]]) -> dict[str, list[dict[str, Any]]]:
+    """The figures of each section, numbered through in the order of the page."""
+    sections: dict[str, Figures] = {section: [] for section in SECTIONS}
+    for drawing, svg in figures:
+        section = next((section for section, words in SECTIONS.items() if words and drawing.name.startswith(words)), "loads")
+        sections[section].append((drawing, svg))
+    numbered = iter(inline([figure for part in sections.values() for figure in part], live))
+    return {section: [next(numbered) for _ in part] for section, part in sections.items()}
 
 
 def write_sweep_report(sweep: Sweep, figures: list[tuple[Drawing, str]]) -> Path:
@@ -79,203 +129,41 @@ def write_sweep_report(sweep: Sweep, figures: list[tuple[Drawing, str]]) -> Path
 
 def render(template: str, path: Path, **content: Any) -> Path:
     environment = jinja2.Environment(
-        loader=jinja2.PackageLoader("dilatedem.post"), autoescape=True, trim_blocks=True, lstrip_blocks=True,
+        loader=jinja2.FileSystemLoader(TEMPLATES), autoescape=True, trim_blocks=True, lstrip_blocks=True,
         undefined=jinja2.StrictUndefined,
     )  # fmt: skip
+    environment.globals |= {"asset": asset, "css_text": css_text}
+    environment.filters["in_code"] = in_code
     write_text(path, environment.get_template(template).render(**content))
     return path
 
 
-def inline(figures: list[tuple[Drawing, str]]) -> list[dict[str, Any]]:
-    return [{"title": drawing.title, "caption": drawing.caption, "name": drawing.name, "svg": svg} for drawing, svg in figures]
+def asset(name: str) -> Markup:
+    """A style sheet or script of the templates, as it stands."""
+    return Markup((TEMPLATES / name).read_text(encoding="utf-8"))
 
 
-def load_rows(statistics: dict[str, Any], level: float = 0.0) -> Rows:
-    """What, value and unit of the load on one structure; none where there is nothing to tell.
-
-    level: height [m] about which moments are stated.
-    """
-    if not statistics["windows"] or statistics["fh"]["peak_N"] == 0.0:
-        return []
-    fh, fx, fy = statistics["fh"], statistics["fx"], statistics["fy"]
-    rows = [
-        ["highest horizontal force", kilo(fh["peak_N"]), f"kN, at {number(fh['peak_time_s'], 5)} s"],
-        ["force along x, lowest to highest", f"{kilo(fx['min_N'])} to {kilo(fx['max_N'])}", "kN"],
-        ["force along y, lowest to highest", f"{kilo(fy['min_N'])} to {kilo(fy['max_N'])}", "kN"],
-    ]
-    window = f"{number(1e3 * statistics['window_s'], 3)} ms"
-    for axis, entry in (("x", fx), ("y", fy)):
-        rows.append([f"mean force along {axis}", kilo(entry["mean_N"]), "kN"])
-        spread = f"standard deviation of the {window} means along {axis}"
-        rows.append([spread, kilo(entry["std_of_window_means_N"]), "kN"])
-        rows.append([f"impulse along {axis}", kilo(entry["impulse_Ns"]), "kN s"])
-    for side, words in (("along_current", "along the current"), ("across_current", "across the current, positive to its left")):
-        if side in statistics:
-            rows.append([f"mean force {words}", kilo(statistics[side]["mean_N"]), "kN"])
-            if "max_N" in statistics[side]:
-                entry = statistics[side]
-                rows.append([f"force {words}, lowest to highest", f"{kilo(entry['min_N'])} to {kilo(entry['max_N'])}", "kN"])
-    if "moment" in statistics:
-        moment, about = statistics["moment"], f"z = {number(level)} m"
-        when = f"kN m, at {number(moment['peak_time_s'], 5)} s"
-        rows.append([f"highest overturning moment about {about}", kilo(moment["peak_Nm"]), when])
-        for axis in ("mx", "my", "mz"):
-            span = f"{kilo(moment[axis]['min_Nm'])} to {kilo(moment[axis]['max_Nm'])}"
-            rows.append([f"moment about {axis[1]} at {about}, lowest to highest", span, "kN m"])
-    rows.append(["share of time in contact", number(100.0 * statistics["contact_time_fraction"], 3), "%"])
-    if "hits" in statistics:
-        hits = statistics["hits"]
-        apart = f"apart by {number(hits['gap_s'])} s or more below that"
-        rows += [
-            [f"separate hits: horizontal force of at least {kilo(hits['threshold_N'])} kN, {apart}", str(hits["count"]), ""],
-            ["mean duration of these, from the first load above to the last", number(hits["mean_duration_s"], 3), "s"],
-            ["longest of them", number(hits["longest_duration_s"], 3), "s"],
-            ["mean time of a hit above that force", number(hits["mean_time_above_s"], 3), "s"],
-        ]
-    for half in (45, 90):
-        part = (statistics.get("around") or {}).get(f"share_within_{half}_deg_of_upstream")
-        if part is not None:
-            what = f"share of the load within {half}° of the upstream direction"
-            rows.append([what, number(100.0 * part, 3), "%"])
-    around = statistics.get("around") or {}
-    if around:
-        zero = around["zero_of_angles"]
-        rows.append([f"centre of the load, 0° = {zero}", number(around["centre_of_load_from_zero_deg"], 3), "°"])
-    return rows
+def css_text(text: str) -> Markup:
+    """A text as CSS takes it: whatever is no letter, digit or space by its number."""
+    return Markup('"' + "".join(c if c.isascii() and (c.isalnum() or c == " ") else f"\\{ord(c):x} " for c in text) + '"')
 
 
-def motion_rows(summary: dict[str, Any], structure: str) -> Rows:
-    """How far a structure that moves came, and what its base bore at most; none of one that is held."""
-    most = (summary.get("motion") or {}).get(structure)
-    if not most:
-        return []
-    return [
-        ["largest displacement", number(most["displacement_max_m"], 4), f"m, at {number(most['displacement_max_time_s'], 5)} s"],
-        ["largest force on its base", kilo(most["reaction_max_N"]), f"kN, at {number(most['reaction_max_time_s'], 5)} s"],
-    ]
+def in_code(text: str) -> Markup:
+    """A text in which `words` between accents are code."""
+    parts = str(text).split("`")
+    return Markup("").join(Markup("<code>{}</code>").format(part) if k % 2 else part for k, part in enumerate(parts))
 
 
-def step_rows(summary: dict[str, Any], structure: str) -> Rows:
-    """What half the time step changes of the load on a structure; none unless it bore the run's highest load, and was checked."""
-    checked = summary.get("error_check") or {}
-    if checked.get("structure") != structure or not checked.get("change"):
-        return []
-    window = f"impulse from {number(checked['start_s'], 5)} to {number(checked['end_s'], 5)} s"
-    kinds = {"fh_max": "highest horizontal force", "impulse_h": f"horizontal {window}", "impulse_x": f"{window} along x"}
-    changes = {kind: checked["change"].get(kind) for kind in kinds}
-    return [
-        [f"in the one hit replayed, half the time step changes the {kinds[kind]} by", number(100.0 * change, 2), "%"]
-        for kind, change in changes.items()
-        if change is not None
-    ]
-
-
-def unchecked(summary: dict[str, Any]) -> str:
-    """Why the error of the time step is not known although the case asks for it; empty where it is."""
-    checked = summary.get("error_check") or {}
-    return "" if checked.get("change") else str(checked.get("message", ""))
-
-
-def quantile_table(statistics: dict[str, Any]) -> dict[str, Any]:
-    """Forces that the maxima of the windows stay below, in so many per cent of the windows."""
-    if not statistics["windows"]:
-        return {"head": [], "rows": []}
-    rows = []
-    for name, key in (("horizontal", "fh"), ("along x", "fx")):
-        quantiles = statistics[key]["quantiles_of_window_maxima_N"]
-        rows.append([name, *[kilo(value) for value in quantiles.values()]])
-    window = number(1e3 * statistics["window_s"], 3)
-    return {"head": [f"{share} %" for share in quantiles], "rows": rows, "window": window}
-
-
-def energy_rows(run: RunFolder, statistics: dict[str, Any]) -> Rows:
-    """Every term of the ledger at its end."""
-    rows: Rows = []
-    for name, column in run.energy.items():
-        if name == "time_s" or not len(column):
-            continue
-        end, change = float(column[-1]), float(column[-1] - column[0])
-        rows.append([name.replace("_", " "), number(end / 1e3, 5), number(change / 1e3, 5)])
-    share = statistics.get("largest_residual_over_work")
-    if share is not None:
-        rows.append(["largest residual / largest work of the loads", f"{number(100.0 * share, 3)} %", ""])
-    share = (run.summary.get("energy") or {}).get("residual_over_turned_over")
-    if share is not None:
-        rows.append(["largest residual / energy turned over", f"{number(100.0 * share, 3)} %", ""])
-    return rows
-
-
-def contact_table(run: RunFolder) -> list[dict[str, Any]]:
-    """Per kind of pair a table: mode, contact-steps, share, impulse, highest force, deepest overlap.
-
-    Modes that never occurred are left out.
-    """
-    tables = []
-    for pair, contacts in run.contacts.items():
-        columns = contacts.columns
-        steps = columns.get("steps", np.zeros(len(contacts.mode)))
-        total = float(steps.sum())
-        rows = [
-            [
-                mode,
-                show(int(steps[i])),
-                number(100.0 * float(steps[i]) / total, 3) if total else "–",
-                kilo(float(columns["impulse_Ns"][i])),
-                kilo(float(columns["max_force_N"][i])),
-                number(1e3 * float(columns["max_overlap_m"][i]), 3),
-            ]
-            for i, mode in enumerate(contacts.mode)
-            if steps[i] > 0
-        ]
-        tables.append({"pair": PAIRS.get(pair, pair.replace("_", " ")), "rows": rows})
-    return tables
-
-
-def fact_rows(run: RunFolder) -> Rows:
-    """How the run was made."""
-    summary = run.summary
-    facts = [
-        ("floes", "floes", ""),
-        ("seed", "seed", ""),
-        ("steps", "steps", ""),
-        ("time step", "dt_s", "s"),
-        ("critical time step", "dt_critical_s", "s"),
-        ("simulated", "simulated_s", "s"),
-        ("wall time", "wall_s", "s"),
-        ("of which compiling", "compile_s", "s"),
-        ("threads", "threads", ""),
-    ]
-    rows = [[label, show(summary[key]), unit] for label, key, unit in facts if summary.get(key) is not None]
-    if inflow := summary.get("inflow"):
-        told = [
-            ("ice that has come", "ice_m", "m"),
-            ("floes that entered", "entered", ""),
-            ("bodies that left", "left", ""),
-            ("ice waited for room", "waited_s", "s"),
-        ]
-        rows += [[label, show(inflow[key]), unit] for label, key, unit in told if inflow.get(key) is not None]
-    elif run.floes is not None and len(run.floes.mass):
-        rows.append(["mass of all floes", number(float(run.floes.mass.sum()) / 1e3), "t"])
-    return rows
-
-
-def case_rows(case: dict[str, Any]) -> Rows:
-    """Key, value and unit of the whole case."""
-    bodies = case.get("body", [])
-    shown = deepcopy(case)
-    if len(bodies) > BODIES_LISTED:
-        shown["body"] = f"{len(bodies)} explicit bodies, see case.toml"
-    for structure in shown.get("structure", []):
-        table = structure.get("support", {}).get("table")
-        if table:
-            structure["support"]["table"] = f"{len(table)} rows, see case.toml"
-    units = {key: "" if isinstance(value, str) else describe_key(key)[1] for key, value in flatten(shown).items()}
-    return [[key, show(value), units[key]] for key, value in flatten(shown).items()]
-
-
-def version_rows(summary: dict[str, Any]) -> Rows:
-    rows = [["dilatedem", str(summary["version"])]] if summary.get("version") else []
-    return rows + [[name, str(version)] for name, version in (summary.get("versions") or {}).items()]
+def inline(figures: Figures, live: dict[str, tuple[str, dict[str, Any]]] | None = None) -> list[dict[str, Any]]:
+    """Figures as the templates take them; live: what the script makes of some of them."""
+    shown = []
+    for place, (drawing, svg) in enumerate(figures, start=1):
+        kind, data = (live or {}).get(drawing.name, ("", None))
+        shown.append({
+            "number": place, "title": drawing.title, "caption": drawing.caption, "name": drawing.name, "svg": svg, "live": kind,
+            "data": as_json(data) if data else "", "width": re.search(r'width="([\d.]+pt)"', svg)[1],
+        })  # fmt: skip
+    return shown
 
 
 def mean_table(sweep: Sweep, structure: str) -> dict[str, Any]:

@@ -117,9 +117,10 @@ _CASE = _table(
 _figure = _maybe(_number)
 #: and in summary.json
 _SUMMARY = _table(
-    status=_text, message=_maybe(_text), title=_text, version=_text, versions=_table(rest=_text), seed=_maybe(_whole), floes=_whole,
-    steps=_whole, dt_s=_maybe(_length), dt_critical_s=_maybe(_length), simulated_s=_figure, duration_s=_figure, wall_s=_figure,
-    compile_s=_figure, threads=_whole, loads=_table(rest=_table(rest=_maybe(lambda value: _truth(value) and _number(value)))),
+    status=_text, message=_maybe(_text), title=_text, version=_text, versions=_table(rest=_text), origin=_table(rest=_text),
+    seed=_maybe(_whole), floes=_whole, steps=_whole, dt_s=_maybe(_length), dt_critical_s=_maybe(_length), simulated_s=_figure,
+    duration_s=_figure, wall_s=_figure, compile_s=_figure, threads=_whole,
+    loads=_table(rest=_table(rest=_maybe(lambda value: _truth(value) and _number(value)))),
     energy=_table(rest=_figure), contact=_table(), motion=_table(rest=_table(rest=_number)),
     hits=_table(
         threshold_N=_figure, gap_s=_figure, meaning=_text, structures=_table(rest=_table(rest=_figure)),

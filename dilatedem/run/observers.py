@@ -17,6 +17,7 @@ from dilatedem.output.forces import Forces
 from dilatedem.output.hits import Hits
 from dilatedem.output.motion import TrackedBodies
 from dilatedem.output.observer import Observer
+from dilatedem.output.origin import now, origin
 from dilatedem.output.record import Record
 from dilatedem.output.snapshots import Snapshots
 from dilatedem.output.structures import StructureMotion, StructureSnapshots
@@ -83,6 +84,7 @@ class RunFolder:
         kept = saved["observers"] if saved else {}
         self._wall_s, self._compile_s = (saved["wall_s"], saved["compile_s"]) if saved else (0.0, 0.0)
         self._wall_s, self._compile_s = self._wall_s + compile_s, self._compile_s + compile_s
+        self._started = (saved or {}).get("started") or now()
         if not saved:
             self._start_folder()
         elif self._case_text() != (self._out / folder.CASE).read_text(encoding="utf-8"):  # a longer run than before
@@ -235,7 +237,7 @@ class RunFolder:
         """Have the state of this moment saved."""
         watch = self._simulation.state.watch
         meta = {"version": __version__, "case": self._digest, "dt": self._simulation.dt, "over": self._over}
-        meta |= {"wall_s": self._wall_s, "compile_s": self._compile_s}
+        meta |= {"wall_s": self._wall_s, "compile_s": self._compile_s, "started": self._started}
         meta |= {"watch": watch.figures()} if watch else {}
         kept = {observer.name: observer.kept() for observer in self._observers}
         groups = self._simulation.state.copies() | self._simulation.remodelled_groups()
@@ -259,6 +261,7 @@ class RunFolder:
         stepping_s = self._wall_s - self._compile_s - self._checked.get("wall_s", 0.0)
         self._background.put(write_summary, self._out / folder.SUMMARY, {
             "status": status, "message": message, "title": case.title, "version": __version__, "versions": versions,
+            "origin": origin(self._started),
             "seed": case.field.seed, "floes": simulation.model.floes, "steps": step, "dt_s": simulation.dt,
             "dt_critical_s": simulation.critical, "dt_over_critical": simulation.dt / simulation.critical,
             "dt_over_critical_of_open_contacts": told["dt_over_critical_of_open_contacts"], "simulated_s": simulation.time_s,

@@ -132,8 +132,8 @@ def test_generate(simulation, monkeypatch):
 def test_post_and_info(simulation, monkeypatch, tmp_path):
     asked = []
 
-    def fake_post(folders):
-        asked.append(folders)
+    def fake_post(folders, **signed):
+        asked.append((folders, {role: name for role, name in signed.items() if name}))
         return [tmp_path / "figures" / "field.png", tmp_path / "report.html"]
 
     fake = types.SimpleNamespace(post=fake_post, info=lambda folder: f"{folder.name} is a run", canvas=canvas)
@@ -141,9 +141,9 @@ def test_post_and_info(simulation, monkeypatch, tmp_path):
     result = invoke("info", tmp_path / "none")
     assert (result.exit_code, result.stderr) == (2, f"{tmp_path}/none: no such folder\n")
     (tmp_path / "summary.json").touch()
-    result = invoke("post", tmp_path)
+    result = invoke("post", tmp_path, "--prepared-by", "A. Maker", "--document", "IL-12 rev. B")
     assert (result.exit_code, result.stdout) == (0, f"{tmp_path / 'report.html'}\n")
-    assert asked == [[tmp_path]]
+    assert asked == [([tmp_path], {"prepared_by": "A. Maker", "document": "IL-12 rev. B"})]
     assert invoke("info", tmp_path).stdout == f"{tmp_path.name} is a run\n"
 
 

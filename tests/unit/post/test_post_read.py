@@ -104,11 +104,11 @@ def test_what_a_case_has_of_a_sea_is_told(make_run, tmp_path):
     """Arrows stand for the start where a table goes on; limits are those of the water that the case has."""
     folder = make_run(tmp_path / "run", snapshots=False)
     assert list(open_run(folder).flows) == ["current"]
-    assert any("without waves" in each and "the whole wetted surface" in each for each in limits(open_run(folder)))
+    assert any("without waves" in each.text and "the whole wetted surface" in each.text for each in limits(open_run(folder)))
     text = (folder / "case.toml").read_text(encoding="utf-8")
     more = 'drag = "skin_form"\nvelocity_table = [[0.0, 0.3, 0.0], [9.0, 0.5, 0.0]]\n'
     (folder / "case.toml").write_text(text.replace("[water]\n", f"[water]\n{more}") + "\n[[wave]]\namplitude = 0.1\nperiod = 5.0\n")
     run = open_run(folder)
     assert list(run.flows) == ["current at the start"]
-    assert any(each.startswith("Waves ride on a current") for each in limits(run))
-    assert not any("without waves" in each or "the whole wetted surface" in each for each in limits(run))
+    assert any(each.text.startswith("Waves ride on a current") for each in limits(run))
+    assert not any("without waves" in each.text or "the whole wetted surface" in each.text for each in limits(run))

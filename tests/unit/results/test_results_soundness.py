@@ -154,6 +154,7 @@ def test_cases_that_are_no_toml(folder, junk):
         ("error_check", 3, "error_check: must be a table"),
         ("error_check", {"change": {"fh_max": "x"}}, "error_check.change.fh_max: must be a finite number"),
         ("versions", [1], "versions: must be a table"),
+        ("origin", {"machine": 5}, "origin.machine: must be text"),
         ("wall_s", 10**400, "holds a whole number of too many digits"),
     ],
 )
