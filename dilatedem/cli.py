@@ -154,19 +154,35 @@ def check(case: CaseArgument, overrides: SetOption = None) -> None:
 
 @app.command()
 @known_faults
-def post(runs: RunsArgument) -> None:
-    """Make figures, summary.json and report.html from the files of runs or sweeps, and nothing else.
+def post(
+    runs: RunsArgument,
+    start: Annotated[
+        str | None,
+        typer.Option("--from", metavar="DRIFT", help="Of sweeps: from this drift of the ice on, as 5m, or this time, as 10s."),
+    ] = None,
+    end: Annotated[
+        str | None, typer.Option("--to", metavar="DRIFT", help="Of sweeps: up to this drift of the ice, or this time.")
+    ] = None,
+    threshold: Annotated[
+        float | None, typer.Option(min=0.0, metavar="N", help="Of sweeps: least horizontal force (N) of a hit.")
+    ] = None,
+    gap: Annotated[
+        float | None, typer.Option(min=0.0, metavar="S", help="Of sweeps: seconds below it between two hits.")
+    ] = None,
+) -> None:
+    """Make figures, statistics and report.html from the files of runs or sweeps, and nothing else.
 
     Examples:
 
     - `dilatedem post runs/pile`
     - `dilatedem post runs/pile-sweep`
+    - `dilatedem post runs/pile-sweep --from 5m --to 30m --threshold 2e4`
     """
     from dilatedem.post import post as make_figures
     from dilatedem.results.doubts import doubts
     from dilatedem.results.files import read_summary
 
-    for path in make_figures(list(runs)):
+    for path in make_figures(list(runs), start=start, end=end, threshold=threshold, gap=gap):
         if path.name == "report.html":
             _say("\n".join([str(path), *_cautions(doubts(read_summary(path.with_name("summary.json"))))]))
 

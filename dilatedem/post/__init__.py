@@ -12,16 +12,23 @@ from pathlib import Path
 __all__ = ["info", "post"]
 
 
-def post(run_dirs: Sequence[Path]) -> list[Path]:
-    """Write figures/, report.html and the load statistics (key `post` of summary.json) of each folder.
+def post(
+    run_dirs: Sequence[Path], *, start: str | None = None, end: str | None = None, threshold: float | None = None,
+    gap: float | None = None,
+) -> list[Path]:  # fmt: skip
+    """Write figures/, report.html and the load statistics (key `post` of summary.json, statistics.csv of a sweep) of each folder.
 
     run_dirs: run folders (with a case.toml), sweep folders (with a sweep.csv), or both. Several run folders
         given together are also compared, in a folder `comparison` beside them.
+    start, end: of the part of each run that sweeps and comparisons look at: a drift of the ice, as "5m", or a time, as "10s".
+    threshold [N], gap [s]: what counts as a hit there.
     Returns the paths written, in the order written. Raises CaseError for a folder that is neither.
     """
+    from dilatedem.post.ensembles import Choice
     from dilatedem.post.folders import post_folders  # matplotlib and the report, only when they are wanted
+    from dilatedem.post.part import read_part
 
-    return post_folders([Path(folder) for folder in run_dirs])
+    return post_folders([Path(folder) for folder in run_dirs], Choice(read_part(start, end), threshold, gap))
 
 
 def info(run_dir: Path) -> str:

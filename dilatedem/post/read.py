@@ -127,6 +127,15 @@ def _sound(path: Path) -> Table:
     return require_table(read_table(path), path)
 
 
+def open_loads(folder: Path) -> RunFolder:
+    """A run folder with its case, summary and forces alone, as ensembles need it. Raises CaseError as open_run does."""
+    case = read_case(folder)
+    forces = split_by_structure(_sound(folder / "forces.csv"), case)
+    return RunFolder(
+        path=folder, case=case, summary=read_summary(folder / "summary.json"), forces=forces, energy={}, snapshots=[]
+    )  # fmt: skip
+
+
 def open_run(folder: Path) -> RunFolder:
     """Read the folder of one run. Raises CaseError when it holds no case.toml, or a file that is damaged."""
     case = read_case(folder)

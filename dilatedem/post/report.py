@@ -1,8 +1,7 @@
-"""report.html: one file that shows a run, or a sweep, to somebody who was not there."""
+"""report.html: one file that shows a run to somebody who was not there."""
 
 from __future__ import annotations
 
-import math
 from copy import deepcopy
 from pathlib import Path
 from typing import Any
@@ -13,14 +12,10 @@ import numpy as np
 from dilatedem.files.atomic import write_text
 from dilatedem.post.canvas import Drawing
 from dilatedem.post.events import event_rows, pressure_words
-from dilatedem.post.figures_sweep import group_runs
-from dilatedem.post.labels import axis_label, describe_key, flatten, kilo, number, show
+from dilatedem.post.labels import describe_key, flatten, kilo, number, show
 from dilatedem.post.limits import limits
 from dilatedem.post.overview import status_words
 from dilatedem.post.read import RunFolder
-from dilatedem.post.sweeps import Sweep, relative, value_words
-from dilatedem.results.doubts import doubts
-from dilatedem.results.files import read_summary
 
 BODIES_LISTED = 5  # more explicit bodies than this are counted in the case table, not listed
 PAIRS = {"ice_ice": "floe on floe", "ice_structure": "floe on structure"}
@@ -58,22 +53,6 @@ def write_run_report(run: RunFolder, statistics: dict[str, Any], figures: list[t
         case=case_rows(run.case),
         versions=version_rows(run.summary),
         limits=limits(run),
-    )
-
-
-def write_sweep_report(sweep: Sweep, figures: list[tuple[Drawing, str]]) -> Path:
-    """Write report.html of a sweep or a comparison."""
-    sweep.folder.mkdir(exist_ok=True)
-    return render(
-        "sweep.html",
-        sweep.folder / "report.html",
-        title=sweep.title,
-        keys=[(key, axis_label(key)) for key in sweep.keys],
-        figures=inline(figures),
-        means={name: mean_table(sweep, name) for name in sweep.structures},
-        runs=run_table(sweep),
-        count=len(sweep.runs),
-        completed=sum(run.completed for run in sweep.runs),
     )
 
 
@@ -276,41 +255,3 @@ def case_rows(case: dict[str, Any]) -> Rows:
 def version_rows(summary: dict[str, Any]) -> Rows:
     rows = [["dilatedem", str(summary["version"])]] if summary.get("version") else []
     return rows + [[name, str(version)] for name, version in (summary.get("versions") or {}).items()]
-
-
-def mean_table(sweep: Sweep, structure: str) -> dict[str, Any]:
-    """One row for each setting of the varied keys: number of runs, mean and spread of their loads."""
-    rows = []
-    for group in group_runs(sweep, sweep.keys[0]) if sweep.keys else []:
-        highest, mean = group.loads(structure, "fh_max") / 1e3, group.loads(structure, "fx_mean") / 1e3
-        if not len(highest):
-            continue
-        spread = number(float(highest.std(ddof=1)), 3) if len(highest) > 1 else "–"
-        rows.append([
-            *[value_words(key, group.values[key]) for key in sweep.keys],
-            str(len(highest)),
-            number(float(highest.mean()), 4),
-            spread,
-            number(float(highest.min()), 4),
-            number(float(highest.max()), 4),
-            number(float(mean.mean()), 3),
-        ])  # fmt: skip
-    return {"head": [axis_label(key) for key in sweep.keys], "rows": rows}
-
-
-def run_table(sweep: Sweep) -> dict[str, Any]:
-    """One row for each run, with a link to its own report where there is one."""
-    quantities = (("fx_max", "highest x"), ("fx_mean", "mean x"), ("fh_max", "highest horizontal"))
-    columns = [(name, quantity, label) for name in sweep.structures for quantity, label in quantities]
-    head = [axis_label(key) for key in sweep.keys] + ["Seed", "Status"]
-    head += [f"{name}: {label} (kN)" for name, _, label in columns] + ["Residual / work (%)"]
-    rows = []
-    for run in sweep.runs:
-        loads = [run.loads.get(name, {}).get(quantity, math.nan) for name, quantity, _ in columns]
-        cells = [value_words(key, run.values[key]) for key in sweep.keys] + [show(run.seed), run.status]
-        cells += [number(load / 1e3) for load in loads] + [number(100.0 * run.residual_over_work, 2)]
-        page = run.folder / "report.html"
-        link = relative(page, sweep.folder) if page.is_file() else ""
-        said = [run.message, *doubts(read_summary(run.folder / "summary.json"))]
-        rows.append({"name": run.folder.name, "link": link, "cells": cells, "message": "; ".join(filter(None, said))})
-    return {"head": head, "rows": rows}
