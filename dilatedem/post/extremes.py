@@ -8,7 +8,7 @@ import numpy as np
 
 from dilatedem.post.ensembles import Ensemble, Study
 from dilatedem.post.measures import HIGHEST
-from dilatedem.statistics import GEV, Band, Gumbel, Pareto, fit_gev, fit_gumbel, fit_pareto, suitable_threshold
+from dilatedem.statistics import GEV, Band, Gumbel, Pareto, fit_gev, fit_gumbel, fit_pareto, mean_excess, suitable_threshold
 
 #: loads are told that one of so many runs exceeds
 LEVELS = (10, 100)
@@ -18,11 +18,12 @@ LEVELS = (10, 100)
 class Extremes:
     """The laws, None each where there is too little to fit.
 
-    peaks (hits,) [N] above the threshold that tells hits; threshold [N]: that of `pareto`; levels: by law and number of runs.
+    maxima (runs,) [N], in the order of the sweep; excess: mean excess of the hits over thresholds [N]; threshold [N]: that of
+    `pareto`; levels: by law and number of runs.
     """
 
     maxima: np.ndarray
-    peaks: np.ndarray
+    excess: list[tuple[float, Band]]
     threshold: float | None
     gumbel: Gumbel | None
     gev: GEV | None
@@ -33,17 +34,16 @@ class Extremes:
 def extremes(study: Study, ensemble: Ensemble, structure: str) -> Extremes:
     """Of the horizontal load on one structure."""
     maxima = ensemble.sample(structure, HIGHEST)
-    by_run = study.peaks(ensemble, structure)
-    peaks = np.concatenate(by_run) if by_run else np.zeros(0)
-    threshold = study.threshold if study.fixed else suitable_threshold(peaks)
-    if threshold is not None and not study.fixed:  # with fewer pieces of time above it, hits are others
-        peaks_of_law = np.concatenate(study.peaks(ensemble, structure, threshold))
-    else:
-        peaks_of_law = peaks
+
+    def hits(level: float) -> np.ndarray:
+        return np.concatenate([np.zeros(0), *study.peaks(ensemble, structure, level)])
+
+    peaks = hits(study.threshold)
+    threshold = study.threshold if study.fixed else suitable_threshold(peaks, hits)
     laws = {
         "gumbel": fit_gumbel(maxima),
         "gev": fit_gev(maxima),
-        "pareto": None if threshold is None else fit_pareto(peaks_of_law, threshold, len(by_run)),
+        "pareto": None if threshold is None else fit_pareto(hits(threshold), threshold, len(ensemble.on(structure))),
     }
     levels = {(name, runs): law.level(runs) for name, law in laws.items() if law for runs in LEVELS}
-    return Extremes(maxima, peaks, threshold, **laws, levels=levels)
+    return Extremes(maxima, mean_excess(peaks, hits), threshold, **laws, levels=levels)

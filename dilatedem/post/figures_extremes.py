@@ -12,7 +12,7 @@ from dilatedem.post.ensembles import Ensemble, Study
 from dilatedem.post.extremes import Extremes
 from dilatedem.post.figures_sweep import setting_words
 from dilatedem.post.labels import number
-from dilatedem.statistics import Band, Gumbel, Pareto, fit_gumbel, growth, mean_excess, needed
+from dilatedem.statistics import Band, Gumbel, Pareto, fit_gumbel, growth, needed
 from dilatedem.statistics.gumbel import plotting_places, reduced
 
 #: runs of which one exceeds a load: where the levels are drawn, and their marks on the axis
@@ -117,7 +117,7 @@ def draw_paper(axes: Axes, law: Gumbel) -> None:
 
 def draw_excess(axes: Axes, laws: Extremes) -> None:
     """Mean residual life, and what the fitted law says of it."""
-    found = mean_excess(laws.peaks)
+    found = laws.excess
     axes.set_title("Mean residual life of hits")
     axes.set_xlabel("Threshold (kN)")
     axes.set_ylabel("Mean excess (kN)")

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 
 from dilatedem.statistics.bands import Band, mean, sample
@@ -11,6 +13,10 @@ from dilatedem.statistics.pareto import FEWEST, fit_chance
 TRIED, GOOD = np.arange(0.0, 0.95, 0.1), 0.1
 #: a threshold that nobody asked for leaves so many hits above it, where there are as many
 LEAST_ABOVE = 2 * FEWEST
+#: thresholds that a mean excess is told for, and the least number of hits above one
+DRAWN, LEAST_DRAWN = 40, 6
+
+Told = Callable[[float], np.ndarray]  # hits above a threshold
 
 
 def peaks_above(start: np.ndarray, end: np.ndarray, force: np.ndarray, threshold: float, gap: float) -> np.ndarray:
@@ -26,26 +32,40 @@ def peaks_above(start: np.ndarray, end: np.ndarray, force: np.ndarray, threshold
     return np.maximum.reduceat(force[above], np.concatenate([[0], np.flatnonzero(apart) + 1]))
 
 
-def suitable_threshold(peaks: np.ndarray) -> float | None:
+def suitable_threshold(peaks: np.ndarray, again: Told | None = None) -> float | None:
     """The lowest threshold from which on the peaks (n,) fit a generalized Pareto law; None for too few of them.
 
     Thresholds are shares of the peaks themselves (Bader, Yan & Zhang 2018). Where none fits, the highest that leaves enough.
+    again: tells the hits anew above a threshold, as above a higher one there are others; unless given, those of `peaks` above it.
     """
-    x = sample(peaks)
+    x, told = sample(peaks), again or above(peaks)
     if len(x) <= FEWEST:
         return None
     tried = [float(x[int(share * len(x))]) for share in TRIED if len(x) - int(share * len(x)) > LEAST_ABOVE] or [float(x[0])]
     for threshold in tried:
-        over = x[x > threshold] - threshold
+        hits = sample(told(threshold))
+        over = hits[hits > threshold] - threshold
         if len(over) >= FEWEST and over[0] < over[-1] and fit_chance(over) > GOOD:
             return threshold
     return tried[-1]
 
 
-def mean_excess(peaks: np.ndarray, count: int = 24) -> list[tuple[float, Band]]:
-    """By how much peaks (n,) exceed each of some thresholds, on average, with bands: a straight line where the law holds."""
-    x = sample(peaks)
-    if len(x) < 8:
+def mean_excess(peaks: np.ndarray, again: Told | None = None) -> list[tuple[float, Band]]:
+    """By how much hits exceed each of some thresholds, on average, with bands: a straight line where the law holds.
+
+    peaks (n,) of all hits; again: as for `suitable_threshold`.
+    """
+    x, told = sample(peaks), again or above(peaks)
+    if len(x) < LEAST_DRAWN:
         return []
-    thresholds = np.unique(np.linspace(x[0], x[-6], count))
-    return [(float(threshold), mean(x[x > threshold] - threshold)) for threshold in thresholds if np.sum(x > threshold) >= 5]
+    found = []
+    for threshold in np.unique(np.linspace(x[0], x[-1], DRAWN)):
+        hits = told(float(threshold))
+        over = hits[hits > threshold] - threshold
+        if len(over) >= LEAST_DRAWN:
+            found.append((float(threshold), mean(over)))
+    return found
+
+
+def above(peaks: np.ndarray) -> Told:
+    return lambda threshold: peaks[peaks >= threshold]
