@@ -24,10 +24,16 @@ def post(
     threshold [N], gap [s]: what counts as a hit there.
     Returns the paths written, in the order written. Raises CaseError for a folder that is neither.
     """
+    import math
+
+    from dilatedem.errors import CaseError
     from dilatedem.post.ensembles import Choice
     from dilatedem.post.folders import post_folders  # matplotlib and the report, only when they are wanted
     from dilatedem.post.part import read_part
 
+    for option, value in (("--threshold", threshold), ("--gap", gap)):
+        if value is not None and not 0.0 <= value < math.inf:
+            raise CaseError(f"{option} {value}: must be a number of at least 0")
     return post_folders([Path(folder) for folder in run_dirs], Choice(read_part(start, end), threshold, gap))
 
 

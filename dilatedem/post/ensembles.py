@@ -13,7 +13,7 @@ from dilatedem.errors import CaseError
 from dilatedem.post.loads import HIT_FORCE, HIT_GAP
 from dilatedem.post.measures import Loads, loads_of, loads_of_row
 from dilatedem.post.part import Part, drift
-from dilatedem.post.read import RunFolder, open_loads
+from dilatedem.post.read import RunFolder, open_facts, read_forces
 from dilatedem.post.sweeps import Sweep, SweepRun
 from dilatedem.results.files import is_run
 from dilatedem.statistics import peaks_above
@@ -90,8 +90,8 @@ class Study:
 
 
 def study(sweep: Sweep, choice: Choice = AS_IT_SUITS) -> Study:
-    """Read the forces of all runs that completed. Raises CaseError where none reaches the part that was asked for."""
-    folders = {run.folder: open_loads(run.folder) for run in sweep.runs if run.completed and is_run(run.folder)}
+    """Read the forces of the runs that completed, one after another. Raises CaseError where none reaches the part asked for."""
+    folders = {run.folder: open_facts(run.folder) for run in sweep.runs if run.completed and is_run(run.folder)}
     part = choice.part or _common_drift(list(folders.values()))
     threshold, gap = _what_counts(list(folders.values()), choice)
     ensembles: dict[str, Ensemble] = {}
@@ -114,12 +114,13 @@ def study(sweep: Sweep, choice: Choice = AS_IT_SUITS) -> Study:
 
 def _member(run: SweepRun, folder: RunFolder | None, part: Part, threshold: float, gap: float) -> Member | None:
     """The loads of a run within the part, None for one that ends before; without its files, what sweep.csv says of whole runs."""
-    if folder is None or not folder.forces:
+    forces = {} if folder is None else read_forces(folder.path, folder.case)
+    if folder is None or not forces:
         return Member(run, (0.0, 0.0), {name: loads_of_row(row) for name, row in run.loads.items()}) if part.whole else None
     times = part.times(folder.case, folder.simulated)
     if times is None:
         return None
-    found = {name: loads_of(history, folder.current, times, threshold) for name, history in folder.forces.items()}
+    found = {name: loads_of(history, folder.current, times, threshold) for name, history in forces.items()}
     loads = {name: one for name, one in found.items() if one is not None}
     for one in loads.values():
         one.measures["hits"] = float(len(peaks_above(one.start, one.end, one.force, threshold, gap)))

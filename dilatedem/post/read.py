@@ -127,13 +127,16 @@ def _sound(path: Path) -> Table:
     return require_table(read_table(path), path)
 
 
-def open_loads(folder: Path) -> RunFolder:
-    """A run folder with its case, summary and forces alone, as ensembles need it. Raises CaseError as open_run does."""
-    case = read_case(folder)
-    forces = split_by_structure(_sound(folder / "forces.csv"), case)
-    return RunFolder(
-        path=folder, case=case, summary=read_summary(folder / "summary.json"), forces=forces, energy={}, snapshots=[]
-    )  # fmt: skip
+def open_facts(folder: Path) -> RunFolder:
+    """A run folder with its case and summary alone: of a thousand runs not all tables fit into memory. Raises CaseError as open_run
+    does."""
+    case, summary = read_case(folder), read_summary(folder / "summary.json")
+    return RunFolder(path=folder, case=case, summary=summary, forces={}, energy={}, snapshots=[])
+
+
+def read_forces(folder: Path, case: dict[str, Any]) -> dict[str, Table]:
+    """forces.csv by structure, in the order of the case. Raises CaseError for a damaged one."""
+    return split_by_structure(_sound(folder / "forces.csv"), case)
 
 
 def open_run(folder: Path) -> RunFolder:
@@ -144,7 +147,7 @@ def open_run(folder: Path) -> RunFolder:
         path=folder,
         case=case,
         summary=read_summary(folder / "summary.json"),
-        forces=split_by_structure(_sound(folder / "forces.csv"), case),
+        forces=read_forces(folder, case),
         energy=_sound(folder / "energy.csv"),
         snapshots=list_snapshots(folder, case),
         load_maps=archive.load_maps,

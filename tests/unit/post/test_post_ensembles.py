@@ -137,6 +137,8 @@ def test_a_single_run_takes_no_part(make_run, tmp_path):
     make_run(tmp_path / "run", duration=1.0, snapshots=False)
     with pytest.raises(CaseError, match="for sweeps"):
         post([tmp_path / "run"], end="0.2m")
+    with pytest.raises(CaseError, match="--gap nan: must be"):
+        post([tmp_path / "run"], gap=float("nan"))
 
 
 def test_a_foreign_table_is_left_alone(make_run, tmp_path):
