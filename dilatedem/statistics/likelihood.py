@@ -14,7 +14,9 @@ from dilatedem.statistics.bands import TAIL
 #: what stands for a likelihood of 0; times more than 1, the farther from what is possible, so that searches find their way back
 IMPOSSIBLE = 1e12
 #: of the best quantity's scale: first step outwards, and how closely an end is found
-STEP, PRECISION = 0.2, 1e-3
+STEP, PRECISION = 0.2, 2e-3
+#: first steps of a search in each parameter, and what of a parameter, and of the log-likelihood, is close enough
+SEARCH, CLOSE = 0.1, {"xatol": 1e-3, "fatol": 1e-5}
 #: steps outwards, each half as long again, before an end counts as open
 OUTWARDS = 30
 #: shapes looked at: lighter or heavier tails than any load has
@@ -23,7 +25,8 @@ SHAPES = (-0.9, 2.0)
 
 def minimum(cost: Callable[[np.ndarray], float], start: list[float]) -> tuple[float, np.ndarray]:
     """Least cost and where it is, from a start nearby."""
-    found = optimize.minimize(cost, start, method="Nelder-Mead", options={"xatol": 1e-4, "fatol": 1e-5, "maxiter": 800})
+    corners = np.vstack([start, np.asarray(start) + SEARCH * np.eye(len(start))])
+    found = optimize.minimize(cost, start, method="Nelder-Mead", options={"initial_simplex": corners, "maxiter": 800, **CLOSE})
     return float(found.fun), found.x
 
 
