@@ -22,8 +22,8 @@ RARE_MARKS = (2, 5, 10, 20, 50, 100)
 SHARES = (5, 20, 50, 80, 90, 95, 98, 99)
 #: share of the mean to which it is told how many runs it takes; the level whose band is drawn beside it
 CLOSENESS, RARE_OF_GROWTH = 0.1, 10
-#: with fewer runs there is nothing to see
-FEWEST = 5
+#: with fewer runs there is nothing to see, and from so many on the growth of a band is drawn
+FEWEST, FIRST = 8, 5
 
 
 @styled
@@ -145,7 +145,7 @@ def draw_law_of_excess(axes: Axes, law: Pareto, last: float) -> None:
 def draw_growth(axes: Axes, maxima: np.ndarray) -> None:
     """The first n runs, in the order of the sweep: the mean, and a rarer load by Gumbel's law."""
     count = len(maxima)
-    every = np.unique(np.linspace(FEWEST, count, min(24, count - FEWEST + 1)).round().astype(int))
+    every = np.unique(np.linspace(FIRST, count, min(24, count - FIRST + 1)).round().astype(int))
     laws = [fit_gumbel(maxima[:n]) for n in every]
     rare = [law.level(RARE_OF_GROWTH) if law else Band(0, np.nan) for law in laws]
     draw_band(axes, every, rare, ORANGE, "--", None)

@@ -14,8 +14,9 @@ CONFIDENCE = 0.95
 TAIL = (1.0 - CONFIDENCE) / 2.0
 #: with fewer values there is no band of a mean or a standard deviation: their skewness is not known
 FEWEST = 5
-#: more skewness than this, of the bands of means, is that of one value far out: the transformation would fold over
-MOST_SKEWNESS = 1.5
+#: more skewness than this, of the bands of means, is that of one value far out; nor may it exceed UNFOLDED over what Student's band
+#: reaches in standard deviations: at 1 the transformation folds over, and an end may be anywhere
+MOST_SKEWNESS, UNFOLDED = 1.5, 0.8
 
 
 @dataclass(frozen=True)
@@ -56,8 +57,9 @@ def mean(values: Iterable[float]) -> Band:
     spread = float(x.std(ddof=1))
     if spread == 0.0:
         return Band(n, centre, centre, centre)
-    third = min(max(skewness(x), -MOST_SKEWNESS), MOST_SKEWNESS) / 3.0
     reach = float(stats.t.ppf(1.0 - TAIL, n - 1)) / math.sqrt(n)
+    most = min(MOST_SKEWNESS, UNFOLDED / reach)
+    third = min(max(skewness(x), -most), most) / 3.0
     ends = [centre - spread * _untransformed(side * reach, third, n) for side in (1.0, -1.0)]
     return Band(n, centre, min(ends), max(ends))
 

@@ -130,8 +130,8 @@ def test_generate(simulation, monkeypatch):
 def test_post_and_info(simulation, monkeypatch, tmp_path):
     asked = []
 
-    def fake_post(folders):
-        asked.append(folders)
+    def fake_post(folders, **options):
+        asked.append((folders, options))
         return [tmp_path / "figures" / "field.png", tmp_path / "report.html"]
 
     fake = types.SimpleNamespace(post=fake_post, info=lambda folder: f"{folder.name} is a run")
@@ -141,7 +141,9 @@ def test_post_and_info(simulation, monkeypatch, tmp_path):
     (tmp_path / "summary.json").touch()
     result = invoke("post", tmp_path)
     assert (result.exit_code, result.stdout) == (0, f"{tmp_path / 'report.html'}\n")
-    assert asked == [[tmp_path]]
+    invoke("post", tmp_path, "--from", "5m", "--to", "30m", "--threshold", "2e4", "--gap", "2")
+    unasked = {"start": None, "end": None, "threshold": None, "gap": None}
+    assert asked == [([tmp_path], unasked), ([tmp_path], {"start": "5m", "end": "30m", "threshold": 2e4, "gap": 2.0})]
     assert invoke("info", tmp_path).stdout == f"{tmp_path.name} is a run\n"
 
 
