@@ -20,6 +20,8 @@ from dilatedem.statistics import mean
 FEWEST = 3
 #: keys that turn the current, and change its speed
 CURRENT = "water.velocity"
+#: degrees between settings of the same direction, so that all are seen
+ASIDE = 4.0
 PANELS = ((HIGHEST, "Highest horizontal force (kN)"), (MEAN_ALONG, "Mean force along the current (kN)"))
 
 
@@ -43,11 +45,13 @@ def rose_figure(study: Study, structure: str) -> Drawing | None:
     for n in sorted(found, key=found.__getitem__):
         lines.setdefault(_setting(study, study.ensembles[n]), []).append(n)
     figure = new_figure(8.2, 4.4)
+    shown = list(lines.items())[: len(SERIES)]
     for place, (quantity, label) in enumerate(PANELS, start=1):
         axes = figure.add_subplot(1, 2, place, projection="polar")
-        for index, (setting, members) in enumerate(list(lines.items())[: len(SERIES)]):
+        for index, (setting, members) in enumerate(shown):
             look = {"color": SERIES[index], "marker": MARKERS[index], "label": setting}
-            draw_petals(axes, study, members, found, structure, quantity, look)
+            aside = (index - 0.5 * (len(shown) - 1)) * ASIDE
+            draw_petals(axes, study, {n: found[n] + aside for n in members}, structure, quantity, look)
         axes.set_ylim(bottom=0.0)
         axes.set_title(label, pad=16)
         axes.set_rlabel_position(_free_angle(list(found.values())))
@@ -60,28 +64,29 @@ def rose_figure(study: Study, structure: str) -> Drawing | None:
         f"Highest horizontal force of any time step (left) and mean force along the current (right) on {structure}, kN, outwards, "
         f"against the direction that the current goes to, degrees from +x counter-clockwise; {study.part.words()}, "
         f"{' to '.join(map(str, dict.fromkeys((runs[0], runs[-1]))))} runs to a direction. Small dots: runs; large marks: their "
-        f"mean; bars: its 95 % band, from 5 runs on."
+        f"mean; bars: its 95 % band, from 5 runs on. A mean against the current is at the centre."
+        f"{' Settings stand side by side.' if len(shown) > 1 else ''}"
     )
     return Drawing(f"rose_{file_name(structure)}", f"Load rose, {structure}", caption, figure)
 
 
 def draw_petals(
-    axes: PolarAxes, study: Study, members: list[int], found: dict[int, float], structure: str, quantity: str, look: dict[str, Any]
+    axes: PolarAxes, study: Study, angles: dict[int, float], structure: str, quantity: str, look: dict[str, Any]
 ) -> None:  # fmt: skip
     """Runs as dots, their mean as a mark on a spoke, its band as a bar. A mean against the current is drawn at the centre."""
-    for n in members:
+    for n, degrees in angles.items():
         values = study.ensembles[n].sample(structure, quantity) / 1e3
         if not len(values):
             continue
-        angle, band = math.radians(found[n]), mean(values)
+        angle, band = math.radians(degrees), mean(values)
         colour = look["color"]
         axes.plot([angle, angle], [0.0, max(band.value, 0.0)], color=colour, linewidth=4.0, alpha=0.3, solid_capstyle="butt")
         dots = {"color": colour, "alpha": 0.45, "markersize": 3.0, "markeredgewidth": 0}
         axes.plot(np.full(len(values), angle), values.clip(0.0), "o", **dots)
         if band.closed:
             axes.plot([angle, angle], [max(band.low, 0.0), max(band.high, 0.0)], color=colour, linewidth=1.4)
-    place = [math.radians(found[n]) for n in members]
-    values = [max(float(np.mean(study.ensembles[n].sample(structure, quantity))) / 1e3, 0.0) for n in members]
+    place = [math.radians(degrees) for degrees in angles.values()]
+    values = [max(float(np.mean(study.ensembles[n].sample(structure, quantity))) / 1e3, 0.0) for n in angles]
     axes.plot(place, values, linestyle="none", markersize=6.0, markeredgecolor="white", zorder=4, **look)
 
 

@@ -11,7 +11,7 @@ from matplotlib.ticker import LogLocator, NullLocator
 
 from dilatedem.post.canvas import MARKERS, SERIES, Drawing, file_name, new_figure, styled
 from dilatedem.post.ensembles import Ensemble, Study
-from dilatedem.post.labels import axis_label, describe_key, show
+from dilatedem.post.labels import axis_label, describe_key, number, show
 from dilatedem.post.measures import HIGHEST, MEAN_ALONG, QUANTITIES
 from dilatedem.post.sweeps import axis_value, is_velocity, value_words
 from dilatedem.statistics import Band, mean
@@ -21,6 +21,8 @@ PANELS = ((HIGHEST, "Highest horizontal force (kN)"), (MEAN_ALONG, "Mean force a
 LOGARITHMIC = 4.0
 #: of so many values each has its number on the axis
 MOST_TICKS = 8
+#: more letters along an axis run into each other
+MOST_LETTERS = 70
 
 Places = dict[int, float | str]  # where an ensemble lies on the axis of a key, by its number
 
@@ -30,18 +32,23 @@ def places(study: Study, key: str) -> Places:
 
     A velocity is its size as long as all have one direction, else both of its components.
     """
-    values = {number: ensemble.values[key] for number, ensemble in enumerate(study.ensembles)}
+    values = {n: ensemble.values[key] for n, ensemble in enumerate(study.ensembles)}
     in_words = turns(study, key)
     found = {
-        number: show(value) if in_words and value is not None else axis_value(key, value) for number, value in values.items()
+        n: vector_words(value) if in_words and value is not None else axis_value(key, value) for n, value in values.items()
     }
-    return {number: place for number, place in found.items() if place is not None}
+    return {n: place for n, place in found.items() if place is not None}
 
 
 def turns(study: Study, key: str) -> bool:
     """Whether the key is a velocity that has several directions."""
     values = [ensemble.values[key] for ensemble in study.ensembles]
     return is_velocity(key) and len({direction(value) for value in values if isinstance(value, list)}) > 1
+
+
+def vector_words(value: Any) -> str:
+    """A vector by a few digits of each component."""
+    return ", ".join(number(component, 3) for component in value) if isinstance(value, list) else show(value)
 
 
 def place_label(key: str, found: Places) -> str:
@@ -91,6 +98,8 @@ def sweep_figure(study: Study, structure: str, key: str) -> Drawing | None:
         axes.grid(True)
         dress_axes(axes, [place for place in found.values() if isinstance(place, float)])
     panels[1].set_xlabel(place_label(key, found))
+    if sum(len(place) for place in set(found.values()) if isinstance(place, str)) > MOST_LETTERS:
+        panels[1].tick_params(axis="x", rotation=90)
     panels[0].set_title(f"Ice force on {structure} ({study.part.words()})")
     if len(lines) > 1:
         columns = 2 if max(map(len, lines)) < 36 else 1

@@ -9,7 +9,7 @@ from typing import Any
 from dilatedem.post.canvas import Drawing
 from dilatedem.post.ensembles import Ensemble, Study
 from dilatedem.post.extremes import LEVELS, Extremes
-from dilatedem.post.figures_sweep import plural, turns
+from dilatedem.post.figures_sweep import plural, turns, vector_words
 from dilatedem.post.labels import axis_label, number, show
 from dilatedem.post.measures import HIGHEST, MEAN_ALONG, QUANTITIES
 from dilatedem.post.report import inline, render
@@ -86,7 +86,7 @@ def statistics_tables(study: Study, structure: str) -> list[dict[str, Any]]:
 def key_cells(study: Study, ensemble: Ensemble) -> list[str]:
     """Values of the keys; both components of a velocity that turns."""
     values = [(key, ensemble.values[key]) for key in study.sweep.keys]
-    return [show(value) if turns(study, key) else value_words(key, value) for key, value in values]
+    return [vector_words(value) if turns(study, key) else value_words(key, value) for key, value in values]
 
 
 def statistics_cells(ensemble: Ensemble, structure: str, quantity: str) -> list[str]:
