@@ -120,11 +120,8 @@ def _member(run: SweepRun, folder: RunFolder | None, part: Part, threshold: floa
     times = part.times(folder.case, folder.simulated)
     if times is None:
         return None
-    found = {name: loads_of(history, folder.current, times, threshold) for name, history in forces.items()}
-    loads = {name: one for name, one in found.items() if one is not None}
-    for one in loads.values():
-        one.measures["hits"] = float(len(peaks_above(one.start, one.end, one.force, threshold, gap)))
-    return Member(run, folder.current, loads)
+    found = {name: loads_of(history, folder.current, times, threshold, gap) for name, history in forces.items()}
+    return Member(run, folder.current, {name: loads for name, loads in found.items() if loads is not None})
 
 
 def _common_drift(folders: Sequence[RunFolder]) -> Part:

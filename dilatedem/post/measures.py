@@ -9,6 +9,7 @@ import numpy as np
 
 from dilatedem.post.loads import along_and_across, window_lengths
 from dilatedem.results.tables import Table
+from dilatedem.statistics import peaks_above
 
 #: what is taken of each run: its name in statistics.csv, in words
 QUANTITIES = {
@@ -38,10 +39,12 @@ class Loads:
     force: np.ndarray
 
 
-def loads_of(history: Table, current: tuple[float, float], times: tuple[float, float], least: float) -> Loads | None:
+def loads_of(
+    history: Table, current: tuple[float, float], times: tuple[float, float], least: float, gap: float
+) -> Loads | None:  # fmt: skip
     """From the rows of forces.csv of a structure that lie within two times [s]; None where there are none.
 
-    current: velocity of the water [m/s]; least: threshold [N] below which no hits are looked for.
+    current: velocity of the water [m/s]; least: threshold [N] below which no hits are looked for, gap [s]: between two of them.
     """
     lengths = window_lengths(history["time_s"])
     slack = 1e-6 * max(1.0, times[1])
@@ -49,9 +52,10 @@ def loads_of(history: Table, current: tuple[float, float], times: tuple[float, f
     if not inside.any():
         return None
     part, lengths = {name: column[inside] for name, column in history.items()}, lengths[inside]
-    highest = part["fh_max_N"]
-    above = highest >= least
-    return Loads(_measures(part, lengths, current), (part["time_s"] - lengths)[above], part["time_s"][above], highest[above])
+    above = part["fh_max_N"] >= least
+    start, end, force = (part["time_s"] - lengths)[above], part["time_s"][above], part["fh_max_N"][above]
+    hits = {"hits": float(len(peaks_above(start, end, force, least, gap)))}
+    return Loads(_measures(part, lengths, current) | hits, start, end, force)
 
 
 def _measures(part: Table, lengths: np.ndarray, current: tuple[float, float]) -> dict[str, float]:

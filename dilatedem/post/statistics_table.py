@@ -76,8 +76,6 @@ def write_statistics(study: Study, laws: Laws) -> Path:
     for number, ensemble in enumerate(study.ensembles):
         values = [cell(ensemble.values[key]) for key in study.sweep.keys]
         for structure in study.sweep.structures:
-            if (number, structure) not in laws:
-                continue
             for quantity, statistic, band in rows_of(ensemble, structure, laws[number, structure]):
                 ends = [f"{end:.9g}" if math.isfinite(end) else "" for end in (band.value, band.low, band.high)]
                 writer.writerow([*values, structure, quantity, statistic, band.n, *ends])
