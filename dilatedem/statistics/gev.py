@@ -16,6 +16,8 @@ from dilatedem.statistics.likelihood import IMPOSSIBLE, SHAPES, critical, minimu
 FEWEST = 20
 #: shapes nearer to 0 are Gumbel's law to double precision
 STRAIGHT = 1e-7
+#: exponents beyond this make a likelihood of 0, before they overflow
+LARGEST = 300.0
 
 Cost = Callable[[np.ndarray], float]
 
@@ -89,19 +91,18 @@ def _reduced(shape: float, runs: float) -> float:
 
 
 def _unlikelihood(x: np.ndarray, location: float, scale: float, shape: float) -> float:
-    """Minus the log-likelihood of values (n,)."""
+    """Minus the log-likelihood of values (n,), ascending."""
     if not SHAPES[0] < shape < SHAPES[1]:
         return IMPOSSIBLE * (1.0 + abs(shape))
     reach = (x - location) / scale
-    if abs(shape) < STRAIGHT:
-        with np.errstate(over="ignore"):
-            return min(IMPOSSIBLE, len(x) * math.log(scale) + float(np.sum(reach + np.exp(-reach))))
-    inside = 1.0 + shape * reach
-    if inside.min() <= 0.0:
-        return IMPOSSIBLE * (1.0 - float(inside.min()))
-    log = np.log(inside) / shape
-    with np.errstate(over="ignore"):
-        return min(IMPOSSIBLE, len(x) * math.log(scale) + float(np.sum((1.0 + shape) * log + np.exp(-log))))
+    if abs(shape) >= STRAIGHT:
+        least = 1.0 + shape * float(reach[0] if shape > 0.0 else reach[-1])
+        if least <= 0.0:
+            return IMPOSSIBLE * (1.0 - least)
+        reach = np.log1p(shape * reach) / shape
+    if -reach[0] > LARGEST:
+        return IMPOSSIBLE
+    return len(x) * math.log(scale) + (1.0 + shape) * float(reach.sum()) + float(np.exp(-reach).sum())
 
 
 def by_moments(x: np.ndarray) -> tuple[float, float, float]:
