@@ -13,8 +13,9 @@ import typer
 from dilatedem import __version__
 from dilatedem.commands.export import export
 from dilatedem.commands.init import init
-from dilatedem.commands.manners import Program, known_faults, say
+from dilatedem.commands.manners import Program, cautions, known_faults, say
 from dilatedem.commands.paraview import paraview
+from dilatedem.commands.post import post
 from dilatedem.errors import WRONG, CaseError, printable
 from dilatedem.garbage import seldom_collected
 from dilatedem.processes import interrupts
@@ -147,47 +148,6 @@ def check(
 
 @app.command()
 @known_faults
-def post(
-    runs: RunsArgument,
-    formats: Annotated[
-        list[str] | None,
-        typer.Option("--format", metavar="KIND", help="Of figures: png, svg, pdf; again for more. png and svg unless given."),
-    ] = None,
-    show: Annotated[bool, typer.Option("--open", help="Open each report in the browser.")] = False,
-    project: Annotated[str, typer.Option(metavar="TEXT", help="Project, for the front page of reports.")] = "",
-    document: Annotated[str, typer.Option(metavar="TEXT", help="Number and revision of the document.")] = "",
-    prepared_by: Annotated[str, typer.Option(metavar="NAME", help="Who made it; a line to fill in unless given.")] = "",
-    checked_by: Annotated[str, typer.Option(metavar="NAME", help="Who checked it.")] = "",
-    approved_by: Annotated[str, typer.Option(metavar="NAME", help="Who approved it.")] = "",
-) -> None:
-    """Make figures, summary.json and report.html from the files of runs or sweeps, and nothing else.
-
-    Examples:
-
-    - `dilatedem post runs/pile`
-    - `dilatedem post runs/pile --project "Harbour light" --prepared-by "A. Maker" --checked-by "C. Reader"`
-    - `dilatedem post runs/pile-sweep`
-    - `dilatedem post runs/pile --format pdf --open`
-    """
-    from dilatedem.commands.figures import opened, written_as
-    from dilatedem.post import post as make_figures
-    from dilatedem.results.doubts import doubts
-    from dilatedem.results.files import read_summary
-
-    signed = {
-        "project": project, "document": document, "prepared_by": prepared_by, "checked_by": checked_by, "approved_by": approved_by,
-    }  # fmt: skip
-    with written_as(formats):
-        written = make_figures(list(runs), **signed)
-    for path in written:
-        if path.name == "report.html":
-            if show:
-                opened(path)
-            say("\n".join([str(path), *_cautions(doubts(read_summary(path.with_name("summary.json"))))]))
-
-
-@app.command()
-@known_faults
 def info(run_dir: Annotated[Path, typer.Argument(metavar="RUN_DIR", help="Folder of a run.")]) -> None:
     """Say what a run is, how far it got, and its headline loads.
 
@@ -268,6 +228,7 @@ def schema() -> None:
     print(json.dumps(json_schema(), indent=2))
 
 
+app.command()(post)
 app.command()(init)
 app.command()(export)
 app.command()(paraview)
@@ -310,11 +271,7 @@ def _headline(folder: Path) -> str:
     summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
     peaks = [_peak_words(name, load) for name, load in summary["loads"].items()]
     start = f"{folder}: {summary['simulated_s']:g} s simulated in {_clock(summary['wall_s'])}"
-    return "\n".join(["; ".join([start, *peaks]), *_cautions(doubts(summary))])
-
-
-def _cautions(doubts: Iterable[str]) -> list[str]:
-    return [f"caution: {doubt}" for doubt in doubts]
+    return "\n".join(["; ".join([start, *peaks]), *cautions(doubts(summary))])
 
 
 def _peak_words(name: str, load: Mapping[str, Any]) -> str:

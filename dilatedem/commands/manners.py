@@ -3,7 +3,7 @@
 import functools
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager, suppress
 from typing import Any
 
@@ -72,6 +72,11 @@ def whisper(text: object) -> None:
     """The same on standard error, where results are not looked for; a terminal may be gone."""
     with suppress(OSError):
         print(printable(str(text), keep="\n"), file=sys.stderr, flush=True)
+
+
+def cautions(doubts: Iterable[str]) -> list[str]:
+    """A line for each thing to doubt."""
+    return [f"caution: {doubt}" for doubt in doubts]
 
 
 @contextmanager

@@ -12,19 +12,32 @@ from pathlib import Path
 __all__ = ["info", "post"]
 
 
-def post(run_dirs: Sequence[Path], **signed: str) -> list[Path]:
-    """Write figures/, report.html and the load statistics (key `post` of summary.json) of each folder.
+def post(
+    run_dirs: Sequence[Path], *, start: str | None = None, end: str | None = None, threshold: float | None = None,
+    gap: float | None = None, **signed: str,
+) -> list[Path]:  # fmt: skip
+    """Write figures/, report.html and the load statistics (key `post` of summary.json, statistics.csv of a sweep) of each folder.
 
     run_dirs: run folders (with a case.toml), sweep folders (with a sweep.csv), or both. Several run folders
         given together are also compared, in a folder `comparison` beside them.
+    start, end: of the part of each run that sweeps and comparisons look at: a drift of the ice, as "5m", or a time, as "10s".
+    threshold [N], gap [s]: what counts as a hit there.
     signed: for the front page of reports of runs: project, document, prepared_by, checked_by, approved_by; lines to be filled in
         by hand unless given.
     Returns the paths written, in the order written. Raises CaseError for a folder that is neither.
     """
+    import math
+
+    from dilatedem.errors import CaseError
+    from dilatedem.post.ensembles import Choice
     from dilatedem.post.folders import post_folders  # matplotlib and the report, only when they are wanted
     from dilatedem.post.front import Signed
+    from dilatedem.post.part import read_part
 
-    return post_folders([Path(folder) for folder in run_dirs], Signed(**signed))
+    for option, value in (("--threshold", threshold), ("--gap", gap)):
+        if value is not None and not 0.0 <= value < math.inf:
+            raise CaseError(f"{option} {value}: must be a number of at least 0")
+    return post_folders([Path(folder) for folder in run_dirs], Choice(read_part(start, end), threshold, gap), Signed(**signed))
 
 
 def info(run_dir: Path) -> str:

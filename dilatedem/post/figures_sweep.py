@@ -1,50 +1,65 @@
-"""Loads of many runs against what was varied: ice speed (Liu 2015, Fig. 14), floe size, any key."""
+"""Loads of many runs against what was varied: ice speed (Liu 2015, Fig. 14), floe size, any key; thin lines are single seeds."""
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.ticker import LogLocator, NullLocator
 
 from dilatedem.post.canvas import MARKERS, SERIES, Drawing, file_name, new_figure, styled
-from dilatedem.post.labels import axis_label, describe_key
-from dilatedem.post.sweeps import Sweep, SweepRun, axis_value, value_words
+from dilatedem.post.ensembles import Ensemble, Study
+from dilatedem.post.labels import axis_label, describe_key, number, show
+from dilatedem.post.measures import HIGHEST, MEAN_ALONG, QUANTITIES
+from dilatedem.post.sweeps import axis_value, is_velocity, value_words
+from dilatedem.statistics import Band, mean
 
-PANELS = (("fh_max", "Highest horizontal force (kN)"), ("fx_mean", "Mean force along x (kN)"))
+PANELS = ((HIGHEST, "Highest horizontal force (kN)"), (MEAN_ALONG, "Mean force along the current (kN)"))
+#: largest over smallest value of a key from which on axes are logarithmic
+LOGARITHMIC = 4.0
+#: of so many values each has its number on the axis
+MOST_TICKS = 8
+#: more letters along an axis run into each other
+MOST_LETTERS = 70
 
-
-@dataclass(frozen=True)
-class Group:
-    """Runs that differ in nothing but the seed."""
-
-    place: float | str  # on the axis of the key that is drawn
-    values: dict[str, Any]
-    runs: list[SweepRun]
-
-    def loads(self, structure: str, quantity: str) -> np.ndarray:
-        """(runs,) [N], of the completed runs that have it."""
-        found = [run.loads.get(structure, {}).get(quantity, math.nan) for run in self.runs if run.completed]
-        return np.array([value for value in found if math.isfinite(value)])
+Places = dict[int, float | str]  # where an ensemble lies on the axis of a key, by its number
 
 
-def group_runs(sweep: Sweep, key: str) -> list[Group]:
-    """The runs by their values of all varied keys; numbers ascend along `key`, words keep the sweep's order.
+def places(study: Study, key: str) -> Places:
+    """Numbers where all values of the key are numbers, else words; ensembles that do without the key are left out.
 
-    Runs that do without the key are left out.
+    A velocity is its size as long as all have one direction, else both of its components.
     """
-    groups: dict[str, Group] = {}
-    for run in sweep.runs:
-        place = axis_value(key, run.values[key])
-        if place is not None:
-            groups.setdefault(repr(sorted(run.values.items())), Group(place, run.values, [])).runs.append(run)
-    return sorted(groups.values(), key=lambda group: math.inf if isinstance(group.place, str) else group.place)
+    values = {n: ensemble.values[key] for n, ensemble in enumerate(study.ensembles)}
+    in_words = turns(study, key)
+    found = {
+        n: vector_words(value) if in_words and value is not None else axis_value(key, value) for n, value in values.items()
+    }
+    return {n: place for n, place in found.items() if place is not None}
 
 
-def varies(groups: list[Group], key: str) -> bool:
-    return any(group.values[key] != groups[0].values[key] for group in groups)
+def turns(study: Study, key: str) -> bool:
+    """Whether the key is a velocity that has several directions."""
+    values = [ensemble.values[key] for ensemble in study.ensembles]
+    return is_velocity(key) and len({direction(value) for value in values if isinstance(value, list)}) > 1
+
+
+def vector_words(value: Any) -> str:
+    """A vector by a few digits of each component."""
+    return ", ".join(number(component, 3) for component in value) if isinstance(value, list) else show(value)
+
+
+def place_label(key: str, found: Places) -> str:
+    """What is on the axis of a key."""
+    components = is_velocity(key) and any(isinstance(place, str) for place in found.values())
+    return axis_label(key).replace("speed", "along x, along y") if components else axis_label(key)
+
+
+def direction(velocity: list[float]) -> float | None:
+    """Where a velocity points to [deg from +x], None for none."""
+    return round(math.degrees(math.atan2(velocity[1], velocity[0])), 6) % 360.0 if any(velocity[:2]) else None
 
 
 def setting_words(values: dict[str, Any], keys: list[str]) -> str:
@@ -57,75 +72,125 @@ def setting_words(values: dict[str, Any], keys: list[str]) -> str:
 
 
 @styled
-def sweep_figure(sweep: Sweep, structure: str, key: str) -> Drawing | None:
+def sweep_figure(study: Study, structure: str, key: str) -> Drawing | None:
     """Highest and mean force on a structure against one key; a line for each setting of the other keys."""
-    groups = group_runs(sweep, key)
-    groups = [group for group in groups if len(group.loads(structure, "fh_max"))]
-    if len({group.place for group in groups}) < 2:
+    found = {n: place for n, place in places(study, key).items() if len(study.ensembles[n].sample(structure, HIGHEST))}
+    if len(set(found.values())) < 2:
         return None
-    others = [other for other in sweep.keys if other != key and varies(groups, other)]
-    lines: dict[str, list[Group]] = {}
-    for group in groups:
-        lines.setdefault(setting_words(group.values, others), []).append(group)
+    order = sorted(found, key=lambda n: math.inf if isinstance(found[n], str) else found[n])
+    ensembles = [study.ensembles[n] for n in order]
+    others = [other for other in study.sweep.keys if other != key and varies(ensembles, other)]
+    lines: dict[str, list[int]] = {}
+    for n in order:
+        lines.setdefault(setting_words(study.ensembles[n].values, others), []).append(n)
     if len(lines) > len(SERIES):
-        lines = {"": groups}  # more settings than anybody can tell apart: dots without a legend
+        lines = {"": order}  # more settings than anybody can tell apart: dots without a legend
     # Between words, and between dots of many settings, there is nothing to join.
-    joined = isinstance(groups[0].place, float) and (len(lines) > 1 or not others)
+    joined = isinstance(found[order[0]], float) and (len(lines) > 1 or not others)
     figure = new_figure(6.6, 5.8)
     panels = figure.subplots(2, 1, sharex=True)
     for axes, (quantity, label) in zip(panels, PANELS, strict=True):
         for index, (setting, members) in enumerate(lines.items()):
             look = {"color": SERIES[index], "marker": MARKERS[index], "markersize": 5.5, "label": setting}
-            look |= {"markeredgecolor": "white", "linewidth": 1.2 if joined else 0.0}
-            draw_line(axes, members, structure, quantity, look)
+            look |= {"markeredgecolor": "white", "linewidth": 1.4 if joined else 0.0}
+            draw_line(axes, study, members, found, structure, quantity, look)
         axes.set_ylabel(label)
         axes.grid(True)
-        low, high = axes.get_ylim()
-        axes.set_ylim(min(0.0, low), max(high, 0.0) + 0.04 * abs(high))
-    panels[1].set_xlabel(axis_label(key))
-    numeric = [group.place for group in groups if isinstance(group.place, float)]
-    if numeric:
-        panels[1].margins(x=0.05)
-    panels[0].set_title(f"Ice force on {structure}")
+        dress_axes(axes, [place for place in found.values() if isinstance(place, float)])
+    panels[1].set_xlabel(place_label(key, found))
+    if sum(len(place) for place in set(found.values()) if isinstance(place, str)) > MOST_LETTERS:
+        panels[1].tick_params(axis="x", rotation=90)
+    panels[0].set_title(f"Ice force on {structure} ({study.part.words()})")
     if len(lines) > 1:
         columns = 2 if max(map(len, lines)) < 36 else 1
         figure.legend(*panels[0].get_legend_handles_labels(), loc="outside lower center", ncols=columns)
-    caption = sweep_caption(structure, key, groups, others)
+    caption = sweep_caption(study, structure, key, ensembles, others)
     name = f"force_by_{file_name(key)}_{file_name(structure)}"
     return Drawing(name, f"Force on {structure} by {describe_key(key)[0]}", caption, figure)
 
 
-def draw_line(axes: Axes, groups: list[Group], structure: str, quantity: str, look: dict[str, Any]) -> None:
-    """A dot per run; where runs differ in the seed alone, their mean and one standard deviation about it."""
-    place, mean, spread = [], [], []
-    for group in groups:
-        loads = group.loads(structure, quantity) / 1e3
-        if not len(loads):
-            continue
-        place.append(group.place)
-        mean.append(float(loads.mean()))
-        spread.append(float(loads.std(ddof=1)) if len(loads) > 1 else 0.0)
-        if len(loads) > 1:
-            dots = {"color": look["color"], "alpha": 0.5, "markersize": 3.5, "markeredgewidth": 0}
-            axes.plot([group.place] * len(loads), loads, look["marker"], zorder=2, **dots)
-    if any(spread):
-        axes.errorbar(place, mean, yerr=spread, capsize=3.0, elinewidth=1.0, zorder=3, **look)
-    else:
-        axes.plot(place, mean, zorder=3, **look)
+def varies(ensembles: list[Ensemble], key: str) -> bool:
+    return any(ensemble.values[key] != ensembles[0].values[key] for ensemble in ensembles)
 
 
-def sweep_caption(structure: str, key: str, groups: list[Group], others: list[str]) -> str:
-    counts = sorted({len(group.loads(structure, "fh_max")) for group in groups})
+def draw_line(
+    axes: Axes, study: Study, members: list[int], found: Places, structure: str, quantity: str, look: dict[str, Any]
+) -> None:  # fmt: skip
+    """A thin line a seed, or dots where there is nothing to join; the mean over the seeds with its 95 % band."""
+    faint = {"color": look["color"], "alpha": 0.4, "zorder": 2}
+    for seed, (at, force) in by_seed(study, members, found, structure, quantity).items():
+        if look["linewidth"] and seed is not None:
+            axes.plot(at, force, linewidth=0.7, **faint)
+        axes.plot(at, force, look["marker"], markersize=3.0, markeredgewidth=0, **faint)
+    known = [n for n in members if len(study.ensembles[n].sample(structure, quantity))]
+    place = [found[n] for n in known]
+    bands = [mean(study.ensembles[n].sample(structure, quantity)) / 1e3 for n in known]
+    axes.plot(place, [band.value for band in bands], zorder=4, **look)
+    draw_bands(axes, place, bands, look)
+
+
+def draw_bands(axes: Axes, place: list[float | str], bands: list[Band], look: dict[str, Any]) -> None:
+    """Shaded along a line, bars where there is none."""
+    closed = [(at, band) for at, band in zip(place, bands, strict=True) if band.closed]
+    if not closed:
+        return
+    at, low, value, high = zip(*((at, band.low, band.value, band.high) for at, band in closed), strict=True)
+    if look["linewidth"] and len(closed) == len(bands):
+        axes.fill_between(at, low, high, color=look["color"], alpha=0.18, linewidth=0, zorder=1)
+    reach = np.abs([np.subtract(value, low), np.subtract(high, value)])
+    axes.errorbar(at, value, yerr=reach, fmt="none", ecolor=look["color"], capsize=3.0, elinewidth=1.0, zorder=3)
+
+
+def by_seed(
+    study: Study, members: list[int], found: Places, structure: str, quantity: str
+) -> dict[int | None, tuple[list[float | str], list[float]]]:
+    """Places and forces [kN] of the runs of each seed."""
+    lines: dict[int | None, tuple[list[float | str], list[float]]] = {}
+    for n in members:
+        for member in study.ensembles[n].members:
+            force = member.loads[structure].measures.get(quantity, math.nan) if structure in member.loads else math.nan
+            if math.isfinite(force):
+                at, forces = lines.setdefault(member.run.seed, ([], []))
+                at.append(found[n])
+                forces.append(force / 1e3)
+    return lines
+
+
+def dress_axes(axes: Axes, numbers: list[float]) -> None:
+    """Logarithmic where the key, and the forces with it, go over so wide a range, as the exponent of a speed is read off there."""
+    forces = np.concatenate([np.ravel(line.get_ydata()).astype(float) for line in axes.lines])
+    if numbers and min(numbers) > 0.0 and max(numbers) >= LOGARITHMIC * min(numbers) and forces.min() > 0.0:
+        axes.set_xscale("log")
+        axes.set_yscale("log")
+        ticks = sorted(set(numbers))
+        axes.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
+        axes.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+        axes.yaxis.set_major_formatter("{x:g}")
+        axes.xaxis.set_minor_locator(NullLocator())
+        axes.yaxis.set_minor_locator(NullLocator())
+        return
+    low, high = axes.get_ylim()
+    axes.set_ylim(min(0.0, low), max(high, 0.0) + 0.04 * abs(high))
+    if numbers:
+        axes.margins(x=0.05)
+        if len(set(numbers)) <= MOST_TICKS:
+            axes.set_xticks(sorted(set(numbers)))
+
+
+def sweep_caption(study: Study, structure: str, key: str, ensembles: list[Ensemble], others: list[str]) -> str:
+    counts = sorted({len(ensemble.sample(structure, HIGHEST)) for ensemble in ensembles})
     repeats = f"{counts[0]} to {counts[-1]} runs" if len(counts) > 1 else plural(counts[0], "run")
     spread = ""
     if counts[-1] > 1:
-        spread = " Small dots: single runs; large ones: mean over the seeds; bars: one standard deviation."
-    left_out = sum(not run.completed for group in groups for run in group.runs)
+        spread = " Thin: single runs, a line a seed where values can be joined; large marks: their mean"
+        spread += ", with its 95 % band." if counts[-1] >= 5 else " (a band takes 5 runs)."
+    left_out = sum(not run.completed for run in study.sweep.runs)
     words = f" Left out: {plural(left_out, 'run')} that did not complete." if left_out else ""
     by = f", for each {' and '.join(describe_key(other)[0] for other in others)}" if others else ""
+    label = place_label(key, places(study, key))
     return (
-        f"Highest horizontal force of any time step (above) and mean force along x (below) on {structure}, kN, against "
-        f"{axis_label(key)[0].lower() + axis_label(key)[1:]}{by}; {repeats} to a point.{spread}{words}"
+        f"{QUANTITIES[HIGHEST].capitalize()} of any time step (above) and {QUANTITIES[MEAN_ALONG]} (below) on {structure}, kN, "
+        f"against {label[0].lower() + label[1:]}{by}; {study.part.words()}, {repeats} to a point.{spread}{words}"
     )
 
 

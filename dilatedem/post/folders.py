@@ -12,20 +12,26 @@ import numpy as np
 from dilatedem.errors import CaseError, SimulationStopped
 from dilatedem.files.atomic import write_text
 from dilatedem.files.faults import told_as
-from dilatedem.post import canvas, report
+from dilatedem.post import canvas, report, sweep_report
 from dilatedem.post.canvas import Drawing
+from dilatedem.post.ensembles import AS_IT_SUITS, Choice, Study, study
+from dilatedem.post.extremes import extremes
 from dilatedem.post.figures_energy import energy_figure, residual_share
+from dilatedem.post.figures_extremes import extremes_figure
 from dilatedem.post.figures_field import field_figure, plan_figure, speed_figure
+from dilatedem.post.figures_grid import grid_figure
 from dilatedem.post.figures_hits import hit_figure
 from dilatedem.post.figures_loads import force_figure, peak_figure
 from dilatedem.post.figures_map import load_around_figure, load_map_figure
 from dilatedem.post.figures_motion import motion_figure
+from dilatedem.post.figures_rose import rose_figure
 from dilatedem.post.figures_sweep import sweep_figure
 from dilatedem.post.front import Signed
 from dilatedem.post.harm import COMPARISON_TABLE, refuse_harm, refuse_harm_beside
 from dilatedem.post.loads import angular_statistics, event_statistics, hit_statistics, hit_threshold, load_statistics
 from dilatedem.post.read import RunFolder, open_run
 from dilatedem.post.snapshots import snapshots_at
+from dilatedem.post.statistics_table import Laws, write_statistics
 from dilatedem.post.sweeps import Sweep, compare_runs, read_sweep, write_table
 from dilatedem.results.doubts import doubts
 from dilatedem.results.files import is_run, is_sweep, read_summary
@@ -33,30 +39,34 @@ from dilatedem.results.snapshots import Snapshot
 from dilatedem.results.tables import row_count
 
 MOMENTS = (0.0, 0.5, 1.0)  # of the run's time that the plan views show, as in Liu 2015, Fig. 10
+#: figures of the laws of rare loads in the report of a sweep
+MOST_LAWS = 8
 
 
-def post_folders(folders: list[Path], signed: Signed | None = None) -> list[Path]:
+def post_folders(folders: list[Path], choice: Choice = AS_IT_SUITS, signed: Signed | None = None) -> list[Path]:
     """See dilatedem.post.post. Every folder is checked before anything is written."""
     # `dilatedem post runs/*` meets the comparison that it wrote the last time.
     folders = [folder for folder in dict.fromkeys(folders) if not (folder / COMPARISON_TABLE).is_file()]
     runs = [folder for folder in folders if is_run(folder) and not is_sweep(folder)]
     beside = common_folder(runs) / "comparison" if len(runs) > 1 else None
+    if choice.asked and not beside and len(runs) == len(folders):
+        raise CaseError(f"{folders[0]}: a single run; a part, a threshold and a gap are for sweeps, and for runs side by side")
     with told_as(CaseError):
         for folder in folders:
             refuse_harm(folder)
         if beside:
             refuse_harm_beside(beside)
     with told_as(SimulationStopped):
-        return _post_all(folders, beside, signed)
+        return _post_all(folders, beside, choice, signed)
 
 
-def _post_all(folders: list[Path], beside: Path | None, signed: Signed | None) -> list[Path]:
+def _post_all(folders: list[Path], beside: Path | None, choice: Choice, signed: Signed | None) -> list[Path]:
     """beside: the folder of a comparison, None for none"""
     written: list[Path] = []
     runs: list[RunFolder] = []
     for folder in folders:
         if is_sweep(folder):
-            written += post_sweep(read_sweep(folder))
+            written += post_sweep(read_sweep(folder), choice)
         else:
             run = open_run(folder)
             written += post_run(run, signed)
@@ -65,7 +75,7 @@ def _post_all(folders: list[Path], beside: Path | None, signed: Signed | None) -
         beside.mkdir(exist_ok=True)
         sweep = compare_runs(runs, beside)
         write_table(sweep, beside / COMPARISON_TABLE)
-        written += [beside / COMPARISON_TABLE, *post_sweep(sweep)]
+        written += [beside / COMPARISON_TABLE, *post_sweep(sweep, choice)]
     return written
 
 
@@ -85,12 +95,30 @@ def post_run(run: RunFolder, signed: Signed | None = None) -> list[Path]:
     return written
 
 
-def post_sweep(sweep: Sweep) -> list[Path]:
-    """Figures and report of runs that differ in some keys."""
-    drawings = [sweep_figure(sweep, structure, key) for structure in sweep.structures for key in sweep.keys]
-    written, figures = save_all([drawing for drawing in drawings if drawing], sweep.folder / "figures")
-    written.append(report.write_sweep_report(sweep, figures))
+def post_sweep(sweep: Sweep, choice: Choice = AS_IT_SUITS) -> list[Path]:
+    """Statistics, figures and report of runs that differ in some keys, or in the seed alone."""
+    found = study(sweep, choice)
+    laws = {
+        (number, structure): extremes(found, ensemble, structure)
+        for number, ensemble in enumerate(found.ensembles)
+        for structure in sweep.structures
+    }
+    written, figures = save_all(sweep_drawings(found, laws), sweep.folder / "figures")
+    written.append(write_statistics(found, laws))
+    written.append(sweep_report.write_sweep_report(found, laws, figures))
     return written
+
+
+def sweep_drawings(found: Study, laws: Laws) -> list[Drawing]:
+    """All figures of a sweep in the order of the report; of the laws of rare loads the first MOST_LAWS."""
+    drawings: list[Drawing | None] = []
+    for structure in found.sweep.structures:
+        drawings += [sweep_figure(found, structure, key) for key in found.sweep.keys]
+        drawings += [grid_figure(found, structure), rose_figure(found, structure)]
+    rare = [
+        extremes_figure(found, found.ensembles[number], structure, law, number + 1) for (number, structure), law in laws.items()
+    ]  # fmt: skip
+    return [drawing for drawing in [*drawings, *[drawing for drawing in rare if drawing][:MOST_LAWS]] if drawing is not None]
 
 
 def save_all(drawings: list[Drawing], folder: Path) -> tuple[list[Path], list[tuple[Drawing, str]]]:

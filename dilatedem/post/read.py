@@ -127,6 +127,18 @@ def _sound(path: Path) -> Table:
     return require_table(read_table(path), path)
 
 
+def open_facts(folder: Path) -> RunFolder:
+    """A run folder with its case and summary alone: of a thousand runs not all tables fit into memory. Raises CaseError as open_run
+    does."""
+    case, summary = read_case(folder), read_summary(folder / "summary.json")
+    return RunFolder(path=folder, case=case, summary=summary, forces={}, energy={}, snapshots=[])
+
+
+def read_forces(folder: Path, case: dict[str, Any]) -> dict[str, Table]:
+    """forces.csv by structure, in the order of the case. Raises CaseError for a damaged one."""
+    return split_by_structure(_sound(folder / "forces.csv"), case)
+
+
 def open_run(folder: Path) -> RunFolder:
     """Read the folder of one run. Raises CaseError when it holds no case.toml, or a file that is damaged."""
     case = read_case(folder)
@@ -135,7 +147,7 @@ def open_run(folder: Path) -> RunFolder:
         path=folder,
         case=case,
         summary=read_summary(folder / "summary.json"),
-        forces=split_by_structure(_sound(folder / "forces.csv"), case),
+        forces=read_forces(folder, case),
         energy=_sound(folder / "energy.csv"),
         snapshots=list_snapshots(folder, case),
         load_maps=archive.load_maps,

@@ -1,8 +1,7 @@
-"""report.html: one file that shows a run, or a sweep, to somebody who was not there, and that somebody else can sign."""
+"""report.html: one file that shows a run to somebody who was not there, and that somebody else can sign."""
 
 from __future__ import annotations
 
-import math
 import re
 from pathlib import Path
 from typing import Any
@@ -14,19 +13,16 @@ from dilatedem.files.atomic import write_text
 from dilatedem.post.canvas import Drawing, file_name
 from dilatedem.post.checks import checks, verdict_words
 from dilatedem.post.events import event_rows, pressure_words
-from dilatedem.post.figures_sweep import group_runs
 from dilatedem.post.front import Signed, basis_rows, headline, identity_rows
 from dilatedem.post.histories import COLUMNS, history_data
 from dilatedem.post.ice import field_rows
 from dilatedem.post.inputs import input_groups
 from dilatedem.post.iso import SHARE, bound_of, bound_rows
-from dilatedem.post.labels import axis_label, number, show
 from dilatedem.post.limits import limits
 from dilatedem.post.moving import moving_plan
 from dilatedem.post.overview import status_words
 from dilatedem.post.pack import as_json
 from dilatedem.post.read import RunFolder
-from dilatedem.post.sweeps import Sweep, relative, value_words
 from dilatedem.post.tables import (
     contact_table,
     energy_rows,
@@ -38,8 +34,6 @@ from dilatedem.post.tables import (
     unchecked,
     version_rows,
 )
-from dilatedem.results.doubts import doubts
-from dilatedem.results.files import read_summary
 
 TEMPLATES = Path(__file__).with_name("templates")
 #: first words of the names of figures, by the section of the report that shows them; all others are of loads
@@ -111,22 +105,6 @@ def by_section(figures: Figures, live: dict[str, tuple[str, dict[str, Any]]]) ->
     return {section: [next(numbered) for _ in part] for section, part in sections.items()}
 
 
-def write_sweep_report(sweep: Sweep, figures: list[tuple[Drawing, str]]) -> Path:
-    """Write report.html of a sweep or a comparison."""
-    sweep.folder.mkdir(exist_ok=True)
-    return render(
-        "sweep.html",
-        sweep.folder / "report.html",
-        title=sweep.title,
-        keys=[(key, axis_label(key)) for key in sweep.keys],
-        figures=inline(figures),
-        means={name: mean_table(sweep, name) for name in sweep.structures},
-        runs=run_table(sweep),
-        count=len(sweep.runs),
-        completed=sum(run.completed for run in sweep.runs),
-    )
-
-
 def render(template: str, path: Path, **content: Any) -> Path:
     environment = jinja2.Environment(
         loader=jinja2.FileSystemLoader(TEMPLATES), autoescape=True, trim_blocks=True, lstrip_blocks=True,
@@ -164,41 +142,3 @@ def inline(figures: Figures, live: dict[str, tuple[str, dict[str, Any]]] | None 
             "data": as_json(data) if data else "", "width": re.search(r'width="([\d.]+pt)"', svg)[1],
         })  # fmt: skip
     return shown
-
-
-def mean_table(sweep: Sweep, structure: str) -> dict[str, Any]:
-    """One row for each setting of the varied keys: number of runs, mean and spread of their loads."""
-    rows = []
-    for group in group_runs(sweep, sweep.keys[0]) if sweep.keys else []:
-        highest, mean = group.loads(structure, "fh_max") / 1e3, group.loads(structure, "fx_mean") / 1e3
-        if not len(highest):
-            continue
-        spread = number(float(highest.std(ddof=1)), 3) if len(highest) > 1 else "–"
-        rows.append([
-            *[value_words(key, group.values[key]) for key in sweep.keys],
-            str(len(highest)),
-            number(float(highest.mean()), 4),
-            spread,
-            number(float(highest.min()), 4),
-            number(float(highest.max()), 4),
-            number(float(mean.mean()), 3),
-        ])  # fmt: skip
-    return {"head": [axis_label(key) for key in sweep.keys], "rows": rows}
-
-
-def run_table(sweep: Sweep) -> dict[str, Any]:
-    """One row for each run, with a link to its own report where there is one."""
-    quantities = (("fx_max", "highest x"), ("fx_mean", "mean x"), ("fh_max", "highest horizontal"))
-    columns = [(name, quantity, label) for name in sweep.structures for quantity, label in quantities]
-    head = [axis_label(key) for key in sweep.keys] + ["Seed", "Status"]
-    head += [f"{name}: {label} (kN)" for name, _, label in columns] + ["Residual / work (%)"]
-    rows = []
-    for run in sweep.runs:
-        loads = [run.loads.get(name, {}).get(quantity, math.nan) for name, quantity, _ in columns]
-        cells = [value_words(key, run.values[key]) for key in sweep.keys] + [show(run.seed), run.status]
-        cells += [number(load / 1e3) for load in loads] + [number(100.0 * run.residual_over_work, 2)]
-        page = run.folder / "report.html"
-        link = relative(page, sweep.folder) if page.is_file() else ""
-        said = [run.message, *doubts(read_summary(run.folder / "summary.json"))]
-        rows.append({"name": run.folder.name, "link": link, "cells": cells, "message": "; ".join(filter(None, said))})
-    return {"head": head, "rows": rows}

@@ -191,12 +191,17 @@ def axis_value(key: str, value: Any) -> float | str | None:
         return "yes" if value else "no"
     if isinstance(value, int | float):
         return float(value)
-    if isinstance(value, list) and key.endswith("velocity"):
+    if isinstance(value, list) and is_velocity(key):
         return math.hypot(*value)
     return ", ".join(str(part) for part in value) if isinstance(value, list) else str(value)
 
 
+def is_velocity(key: str) -> bool:
+    """Whether a key is a velocity, or a component of one."""
+    return key.endswith(("velocity", "velocity.0", "velocity.1"))
+
+
 def value_words(key: str, value: Any) -> str:
-    """A value as text; a velocity along x by its size alone."""
-    along_x = isinstance(value, list) and key.endswith("velocity") and not any(value[1:])
+    """A value as text; a velocity towards +x by its size alone."""
+    along_x = isinstance(value, list) and is_velocity(key) and not any(value[1:]) and value[0] >= 0.0
     return show(value[0] if along_x else value)

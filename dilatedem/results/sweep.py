@@ -14,6 +14,7 @@ from dilatedem.errors import CaseError
 from dilatedem.results.files import is_run
 from dilatedem.results.packages import imported
 from dilatedem.results.run import Run
+from dilatedem.results.tables import read_frame
 
 if TYPE_CHECKING:
     import pandas
@@ -54,6 +55,14 @@ class Sweep:
             cells = [row[name] for row in rows]
             columns |= {name: cells} if name in WORDS else as_columns(name, cells, taken=header)
         return pandas.DataFrame(columns)
+
+    @cached_property
+    def statistics(self) -> pandas.DataFrame:
+        """statistics.csv, as `dilatedem post` wrote it: a row per number, with its band. Raises CaseError where it is not there."""
+        path = self.path / "statistics.csv"
+        if not path.is_file():
+            raise CaseError(f"{self.path}: this sweep has no {path.name}; dilatedem post {self.path} makes it")
+        return read_frame(path)
 
     @cached_property
     def runs(self) -> Runs:

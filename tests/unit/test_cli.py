@@ -132,8 +132,8 @@ def test_generate(simulation, monkeypatch):
 def test_post_and_info(simulation, monkeypatch, tmp_path):
     asked = []
 
-    def fake_post(folders, **signed):
-        asked.append((folders, {role: name for role, name in signed.items() if name}))
+    def fake_post(folders, **options):
+        asked.append((folders, {option: value for option, value in options.items() if value not in (None, "")}))
         return [tmp_path / "figures" / "field.png", tmp_path / "report.html"]
 
     fake = types.SimpleNamespace(post=fake_post, info=lambda folder: f"{folder.name} is a run", canvas=canvas)
@@ -144,6 +144,8 @@ def test_post_and_info(simulation, monkeypatch, tmp_path):
     result = invoke("post", tmp_path, "--prepared-by", "A. Maker", "--document", "IL-12 rev. B")
     assert (result.exit_code, result.stdout) == (0, f"{tmp_path / 'report.html'}\n")
     assert asked == [([tmp_path], {"prepared_by": "A. Maker", "document": "IL-12 rev. B"})]
+    invoke("post", tmp_path, "--from", "5m", "--to", "30m", "--threshold", "2e4", "--gap", "2")
+    assert asked[1:] == [([tmp_path], {"start": "5m", "end": "30m", "threshold": 2e4, "gap": 2.0})]
     assert invoke("info", tmp_path).stdout == f"{tmp_path.name} is a run\n"
 
 

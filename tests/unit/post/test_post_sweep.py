@@ -7,7 +7,8 @@ import pytest
 
 from dilatedem.errors import CaseError
 from dilatedem.post import info
-from dilatedem.post.figures_sweep import group_runs, sweep_figure
+from dilatedem.post.ensembles import study
+from dilatedem.post.figures_sweep import places, sweep_figure
 from dilatedem.post.folders import post_sweep
 from dilatedem.post.labels import axis_label, flatten, number, show
 from dilatedem.post.read import open_run
@@ -47,21 +48,18 @@ def test_table_is_read_as_written(tmp_path):
     assert first.loads["pile"]["fh_max"] == pytest.approx(550.0)
 
 
-def test_runs_that_differ_in_the_seed_alone_are_one_group(tmp_path):
-    sweep = read_sweep(write_sweep(tmp_path / "sweep", broken=("v1.0_consistent_2",)))
-    groups = group_runs(sweep, "water.velocity")
-    assert [group.place for group in groups] == [0.25, 0.25, 0.5, 0.5, 1.0, 1.0]
-    assert groups[0].loads("pile", "fx_max").tolist() == [250.0, 500.0]
-    assert groups[-1].loads("pile", "fx_max").tolist() == [2000.0]
-    words = [group.place for group in group_runs(sweep, "contact.model")]
-    assert words == ["liu2015", "consistent"] * 3  # in the order of the table
+def test_runs_that_differ_in_the_seed_alone_are_one_ensemble(tmp_path):
+    found = study(read_sweep(write_sweep(tmp_path / "sweep", broken=("v1.0_consistent_2",))))
+    assert list(places(found, "water.velocity").values()) == [0.5, 0.5, 0.25, 0.25, 1.0, 1.0]
+    assert list(places(found, "contact.model").values()) == ["liu2015", "consistent"] * 3  # in the order of the table
+    assert found.ensembles[2].sample("pile", "horizontal_highest_N") == pytest.approx([275.0, 550.0])
+    assert found.ensembles[-1].sample("pile", "horizontal_highest_N") == pytest.approx([2200.0])
 
 
 def test_figure_shows_mean_and_spread_over_the_seeds(tmp_path):
-    sweep = read_sweep(write_sweep(tmp_path / "sweep"))
-    drawing = sweep_figure(sweep, "pile", "water.velocity")
+    drawing = sweep_figure(study(read_sweep(write_sweep(tmp_path / "sweep"))), "pile", "water.velocity")
     axes = drawing.figure.axes[0]
-    line = next(line for line in axes.lines if len(line.get_xdata()) == 3)
+    line = next(line for line in axes.lines if line.get_label() == "contact model liu2015")
     assert line.get_xdata() == pytest.approx([0.25, 0.5, 1.0])
     assert line.get_ydata() == pytest.approx([1.1 * 0.375, 1.1 * 0.75, 1.1 * 1.5])  # horizontal, wherever the current goes
     assert drawing.figure.axes[0].get_ylabel() == "Highest horizontal force (kN)"
@@ -71,7 +69,7 @@ def test_figure_shows_mean_and_spread_over_the_seeds(tmp_path):
 
 def test_key_that_takes_one_value_has_no_figure(tmp_path):
     sweep = read_sweep(write_sweep(tmp_path / "sweep"))
-    short = type(sweep)(sweep.title, sweep.folder, sweep.keys, sweep.runs[:2])
+    short = study(type(sweep)(sweep.title, sweep.folder, sweep.keys, sweep.runs[:2]))
     assert sweep_figure(short, "pile", "water.velocity") is None
     assert sweep_figure(short, "jetty", "contact.model") is None
 
@@ -83,7 +81,7 @@ def test_report_of_a_sweep(tmp_path):
     assert folder / "report.html" in written
     assert "12 runs, 11 of them completed" in page
     assert "bodies 3, 7" in page
-    assert page.count("<svg") == 2
+    assert page.count("<svg") == 3  # against either key, and a map of both
     assert "12 (11 completed, 1 stopped)" in info(folder)
 
 

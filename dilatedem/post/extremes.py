@@ -1,0 +1,49 @@
+"""The highest loads of an ensemble: laws of the runs' maxima and of the hits above a threshold, and what they say of rare loads."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from dilatedem.post.ensembles import Ensemble, Study
+from dilatedem.post.measures import HIGHEST
+from dilatedem.statistics import GEV, Band, Gumbel, Pareto, fit_gev, fit_gumbel, fit_pareto, mean_excess, suitable_threshold
+
+#: loads are told that one of so many runs exceeds
+LEVELS = (10, 100)
+
+
+@dataclass(frozen=True)
+class Extremes:
+    """The laws, None each where there is too little to fit.
+
+    maxima (runs,) [N], in the order of the sweep; excess: mean excess of the hits over thresholds [N]; threshold [N]: that of
+    `pareto`; levels: by law and number of runs.
+    """
+
+    maxima: np.ndarray
+    excess: list[tuple[float, Band]]
+    threshold: float | None
+    gumbel: Gumbel | None
+    gev: GEV | None
+    pareto: Pareto | None
+    levels: dict[tuple[str, int], Band]
+
+
+def extremes(study: Study, ensemble: Ensemble, structure: str) -> Extremes:
+    """Of the horizontal load on one structure."""
+    maxima = ensemble.sample(structure, HIGHEST)
+
+    def hits(level: float) -> np.ndarray:
+        return np.concatenate([np.zeros(0), *study.peaks(ensemble, structure, level)])
+
+    peaks = hits(study.threshold)
+    threshold = study.threshold if study.fixed else suitable_threshold(peaks, hits)
+    laws = {
+        "gumbel": fit_gumbel(maxima),
+        "gev": fit_gev(maxima),
+        "pareto": None if threshold is None else fit_pareto(hits(threshold), threshold, len(ensemble.on(structure))),
+    }
+    levels = {(name, runs): law.level(runs) for name, law in laws.items() if law for runs in LEVELS}
+    return Extremes(maxima, mean_excess(peaks, hits), threshold, **laws, levels=levels)
