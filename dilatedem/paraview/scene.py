@@ -3,8 +3,10 @@
 import argparse
 import math
 import os
+import sys
 
-from paraview import servermanager, simple
+import paraview
+from paraview import simple
 
 WHITE, DARK, WATER, STRUCTURE, ARROW = (1.0, 1.0, 1.0), (0.15, 0.2, 0.25), (0.81, 0.88, 0.93), (0.84, 0.37, 0.0), (0.55, 0.0, 0.1)
 #: of the shorter side of the domain, how long the arrow of the largest force is
@@ -132,7 +134,8 @@ def look_from(run: dict, view) -> None:
 
 def main(run: dict, folder: str, contacts: bool, movie: bool) -> None:
     """In the window of ParaView the run is shown; pvbatch and pvpython write a picture, or a film."""
-    if getattr(servermanager, "fromGUI", False):
+    started = os.path.basename((getattr(sys, "argv", None) or [""])[0])  # pvbatch and pvpython name the script there
+    if paraview.fromGUI or not started.endswith(".py"):
         simple.Render(show(run, folder, contacts=contacts))
         return
     asked = argparse.ArgumentParser(description="Writes a picture of the run, or a film.")
