@@ -8,13 +8,19 @@ import numpy as np
 
 #: s that a picture of a small run may take on a busy machine
 LONGEST = 600
+#: times that a picture is tried for where the X server was not up yet, as happens on a busy machine
+TRIES = 3
 
 
 def pvbatch(script: Path, *options) -> subprocess.CompletedProcess:
     """Run a script by ParaView's own Python: that of this process, and what is set for it, are not its."""
     environment = {name: value for name, value in os.environ.items() if not name.startswith(("PYTHON", "VIRTUAL_ENV"))}
-    command = ["xvfb-run", "-a", "pvbatch", script, *options]
-    return subprocess.run(list(map(str, command)), capture_output=True, text=True, timeout=LONGEST, env=environment, check=False)
+    command = list(map(str, ["xvfb-run", "-a", "pvbatch", script, *options]))
+    for _ in range(TRIES):
+        done = subprocess.run(command, capture_output=True, text=True, timeout=LONGEST, env=environment, check=False)
+        if "bad X server connection" not in done.stdout + done.stderr:
+            break
+    return done
 
 
 def colours_of(image: np.ndarray) -> dict[str, float]:
