@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from functools import cache
 
 import numpy as np
 from scipy import optimize, stats
@@ -37,8 +36,7 @@ def critical(n: int, parameters: int) -> float:
 
 def profile_ends(lacking: Callable[[float], float], best: float, scale: float, limit: float) -> tuple[float, float]:
     """Where twice the lacking log-likelihood of a quantity reaches `limit`, below and above its best value; infinite if nowhere."""
-    known = cache(lacking)  # searches that start elsewhere end elsewhere, in the last digits
-    return _end(known, best, -scale, limit), _end(known, best, scale, limit)
+    return _end(lacking, best, -scale, limit), _end(lacking, best, scale, limit)
 
 
 def _end(lacking: Callable[[float], float], best: float, scale: float, limit: float) -> float:
@@ -46,6 +44,17 @@ def _end(lacking: Callable[[float], float], best: float, scale: float, limit: fl
     for _ in range(OUTWARDS):
         outside = inside + step
         if lacking(outside) > limit:
-            return float(optimize.brentq(lambda x: lacking(x) - limit, inside, outside, xtol=PRECISION * abs(scale)))
+            return _between(lacking, inside, outside, limit, PRECISION * abs(scale))
         inside, step = outside, 1.5 * step
     return math.copysign(math.inf, scale)
+
+
+def _between(lacking: Callable[[float], float], inside: float, outside: float, limit: float, precision: float) -> float:
+    """By halving: at the edge of what is possible a search may end short of the best, where quicker ways would lose the root."""
+    while abs(outside - inside) > precision:
+        middle = 0.5 * (inside + outside)
+        if lacking(middle) > limit:
+            outside = middle
+        else:
+            inside = middle
+    return 0.5 * (inside + outside)

@@ -105,9 +105,14 @@ def test_the_last_window_may_be_shorter():
     assert len(history.value) == 4 and history.cost.impulse_error < 1e-14
 
 
+def newtons(least: float):
+    """Loads to the milli-newton: of an impulse of next to nothing between large extremes no more than their round-off is left."""
+    return st.integers(int(1e3 * least), 10**9).map(lambda load: 1e-3 * load)
+
+
 @settings(derandomize=True, deadline=None, max_examples=60)
 @given(
-    loads=st.lists(st.tuples(st.floats(-1e6, 1e6), st.floats(0.0, 1e6), st.floats(0.0, 1e6)), min_size=1, max_size=60),
+    loads=st.lists(st.tuples(newtons(-1e6), newtons(0.0), newtons(0.0)), min_size=1, max_size=60),
     ratio=st.floats(1.0, 20.0),
 )
 def test_any_load_keeps_its_impulse_within_the_bounds_of_its_windows(loads, ratio):

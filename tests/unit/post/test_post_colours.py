@@ -4,15 +4,16 @@ import matplotlib
 import numpy as np
 import pytest
 from test_post_hits import archive  # noqa: F401  (a fixture)
-from test_post_sweep import write_sweep
+from test_post_ensembles import write_sweep
 
 from dilatedem.post.canvas import new_figure
+from dilatedem.post.ensembles import study
+from dilatedem.post.extremes import extremes
 from dilatedem.post.figures_energy import TERMS, energy_figure
 from dilatedem.post.figures_field import SPEED_MAP
 from dilatedem.post.figures_hits import hit_figure
 from dilatedem.post.figures_motion import motion_figure
-from dilatedem.post.figures_sweep import sweep_figure
-from dilatedem.post.folders import run_drawings
+from dilatedem.post.folders import run_drawings, sweep_drawings
 from dilatedem.post.read import open_run
 from dilatedem.post.sweeps import read_sweep
 from tests.colour_blind import LEAST_DISTANCE, SEEN, clashes, distance, lab
@@ -73,10 +74,18 @@ def test_figure_of_a_load_event(archive, make_run, tmp_path):  # noqa: F811
     assert clashes(hit_figure(shown, archive.hits[0], 1).figure) == []
 
 
-def test_figures_of_a_sweep(tmp_path):
-    sweep = read_sweep(write_sweep(tmp_path / "sweep"))
-    for key in sweep.keys:
-        assert clashes(sweep_figure(sweep, "pile", key).figure) == []
+def test_figures_of_a_sweep(make_run, tmp_path):
+    points = [
+        ({"water.velocity": velocity, "water.friction": friction}, seed, {"scale": scale})
+        for velocity, scale in (("[0.3, 0.0]", 1.0), ("[0.0, 0.3]", 1.4)) for friction in ("0.1", "0.2") for seed in range(1, 3)
+    ]  # fmt: skip
+    grid = study(read_sweep(write_sweep(tmp_path / "grid", make_run, points)))
+    seeds = study(read_sweep(write_sweep(tmp_path / "seeds", make_run, [({}, n, {"scale": 0.5 + 0.1 * n}) for n in range(1, 9)])))
+    laws = {(0, "pile"): extremes(seeds, seeds.ensembles[0], "pile")}
+    drawings = [*sweep_drawings(grid, {}), *sweep_drawings(seeds, laws)]
+    assert len(drawings) >= 5
+    for drawing in drawings:
+        assert clashes(drawing.figure) == [], drawing.name
 
 
 def test_scales_go_from_dark_to_light_for_every_eye():
