@@ -3,8 +3,8 @@
 import matplotlib
 import numpy as np
 import pytest
-from test_post_hits import archive  # noqa: F401  (a fixture)
 from test_post_ensembles import write_sweep
+from test_post_hits import archive  # noqa: F401  (a fixture)
 
 from dilatedem.post.canvas import new_figure
 from dilatedem.post.ensembles import study
@@ -75,15 +75,16 @@ def test_figure_of_a_load_event(archive, make_run, tmp_path):  # noqa: F811
 
 
 def test_figures_of_a_sweep(make_run, tmp_path):
+    turns = {"[0.3, 0.0]": (0.3, 0.0), "[0.0, 0.3]": (0.0, 0.3), "[-0.3, 0.0]": (-0.3, 0.0)}
     points = [
-        ({"water.velocity": velocity, "water.friction": friction}, seed, {"scale": scale})
-        for velocity, scale in (("[0.3, 0.0]", 1.0), ("[0.0, 0.3]", 1.4)) for friction in ("0.1", "0.2") for seed in range(1, 3)
+        ({"water.velocity": velocity, "water.friction": friction}, seed, {"current": current})
+        for velocity, current in turns.items() for friction in ("0.1", "0.2") for seed in range(1, 3)
     ]  # fmt: skip
     grid = study(read_sweep(write_sweep(tmp_path / "grid", make_run, points)))
     seeds = study(read_sweep(write_sweep(tmp_path / "seeds", make_run, [({}, n, {"scale": 0.5 + 0.1 * n}) for n in range(1, 9)])))
     laws = {(0, "pile"): extremes(seeds, seeds.ensembles[0], "pile")}
     drawings = [*sweep_drawings(grid, {}), *sweep_drawings(seeds, laws)]
-    assert len(drawings) >= 5
+    assert len(drawings) >= 5, [d.name for d in drawings]
     for drawing in drawings:
         assert clashes(drawing.figure) == [], drawing.name
 
