@@ -119,9 +119,8 @@ def draw_line(
     """A thin line a seed, or dots where there is nothing to join; the mean over the seeds with its 95 % band."""
     faint = {"color": look["color"], "alpha": 0.4, "zorder": 2}
     for seed, (at, force) in by_seed(study, members, found, structure, quantity).items():
-        if look["linewidth"] and seed is not None:
-            axes.plot(at, force, linewidth=0.7, **faint)
-        axes.plot(at, force, look["marker"], markersize=3.0, markeredgewidth=0, **faint)
+        joined = 0.7 if look["linewidth"] and seed is not None else 0.0
+        axes.plot(at, force, marker=look["marker"], markersize=3.0, markeredgewidth=0, linewidth=joined, **faint)
     known = [n for n in members if len(study.ensembles[n].sample(structure, quantity))]
     place = [found[n] for n in known]
     bands = [mean(study.ensembles[n].sample(structure, quantity)) / 1e3 for n in known]
