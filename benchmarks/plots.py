@@ -4,7 +4,7 @@ from pathlib import Path
 
 from benchmarks.results import grouped
 from benchmarks.scenes import MODELS, SCENES
-from dilatedem.post.canvas import BLACK, BLUE, GREEN, PNG_DPI, PURPLE, SKY, VERMILION, new_figure, styled
+from dilatedem.post.figures.canvas import BLACK, BLUE, GREEN, PNG_DPI, PURPLE, SKY, VERMILION, new_figure, styled
 from dilatedem.step.stages import STAGES
 
 COST, STAGE = "cost_by_size.png", "cost_by_stage.png"

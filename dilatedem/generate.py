@@ -74,8 +74,8 @@ def _holds_field(folder: Path) -> bool:
 def _picture(case: Case, placed: Scene) -> Callable[[], bytes]:
     """The plan of the field, floes coloured by size; call the result for the bytes of a PNG."""
     # Imported here: matplotlib takes half a second, which a wrong case should not wait for.
-    from dilatedem.post import canvas, plan
-    from dilatedem.post.figures_field import panel_height
+    from dilatedem.post.figures import canvas, plan
+    from dilatedem.post.figures.field import panel_height
     from dilatedem.post.read import RunFolder
     from dilatedem.results.archive import PlanOutline
 

@@ -7,7 +7,7 @@ from typing import Any
 from dilatedem.case.schema import DISTRIBUTIONS, LISTED, STRUCTURES, SUPPORTS, TABLES, Case
 from dilatedem.keys import Table
 
-FILE = Path("dilatedem", "post", "meanings.json")
+FILE = Path("dilatedem", "post", "report", "meanings.json")
 
 
 def meanings() -> dict[str, dict[str, Any]]:

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from dilatedem.commands.manners import busy, whisper
 from dilatedem.errors import CaseError
-from dilatedem.post import canvas
+from dilatedem.post.figures import canvas
 
 
 @contextmanager

@@ -29,10 +29,10 @@ def post(
     import math
 
     from dilatedem.errors import CaseError
-    from dilatedem.post.ensembles import Choice
+    from dilatedem.post.ensembles.part import read_part
+    from dilatedem.post.ensembles.study import Choice
     from dilatedem.post.folders import post_folders  # matplotlib and the report, only when they are wanted
-    from dilatedem.post.front import Signed
-    from dilatedem.post.part import read_part
+    from dilatedem.post.report.front import Signed
 
     for option, value in (("--threshold", threshold), ("--gap", gap)):
         if value is not None and not 0.0 <= value < math.inf:

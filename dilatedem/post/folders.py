@@ -12,27 +12,29 @@ import numpy as np
 from dilatedem.errors import CaseError, SimulationStopped
 from dilatedem.files.atomic import write_text
 from dilatedem.files.faults import told_as
-from dilatedem.post import canvas, report, sweep_report
-from dilatedem.post.canvas import Drawing
-from dilatedem.post.ensembles import AS_IT_SUITS, Choice, Study, study
-from dilatedem.post.extremes import extremes
-from dilatedem.post.figures_energy import energy_figure, residual_share
-from dilatedem.post.figures_extremes import extremes_figure
-from dilatedem.post.figures_field import field_figure, plan_figure, speed_figure
-from dilatedem.post.figures_grid import grid_figure
-from dilatedem.post.figures_hits import hit_figure
-from dilatedem.post.figures_loads import force_figure, peak_figure
-from dilatedem.post.figures_map import load_around_figure, load_map_figure
-from dilatedem.post.figures_motion import motion_figure
-from dilatedem.post.figures_rose import rose_figure
-from dilatedem.post.figures_sweep import sweep_figure
-from dilatedem.post.front import Signed
+from dilatedem.post.ensembles.laws import extremes
+from dilatedem.post.ensembles.study import AS_IT_SUITS, Choice, Study, study
+from dilatedem.post.ensembles.sweeps import Sweep, compare_runs, read_sweep, write_table
+from dilatedem.post.ensembles.table import Laws, write_statistics
+from dilatedem.post.figures import canvas
+from dilatedem.post.figures.canvas import Drawing
+from dilatedem.post.figures.energy import energy_figure, residual_share
+from dilatedem.post.figures.extremes import extremes_figure
+from dilatedem.post.figures.field import field_figure, plan_figure, speed_figure
+from dilatedem.post.figures.grid import grid_figure
+from dilatedem.post.figures.hits import hit_figure
+from dilatedem.post.figures.loads import force_figure, peak_figure
+from dilatedem.post.figures.map import load_around_figure, load_map_figure
+from dilatedem.post.figures.motion import motion_figure
+from dilatedem.post.figures.rose import rose_figure
+from dilatedem.post.figures.sweep import sweep_figure
 from dilatedem.post.harm import COMPARISON_TABLE, refuse_harm, refuse_harm_beside
 from dilatedem.post.loads import angular_statistics, event_statistics, hit_statistics, hit_threshold, load_statistics
 from dilatedem.post.read import RunFolder, open_run
+from dilatedem.post.report.front import Signed
+from dilatedem.post.report.page import write_run_report
+from dilatedem.post.report.sweep import write_sweep_report
 from dilatedem.post.snapshots import snapshots_at
-from dilatedem.post.statistics_table import Laws, write_statistics
-from dilatedem.post.sweeps import Sweep, compare_runs, read_sweep, write_table
 from dilatedem.results.doubts import doubts
 from dilatedem.results.files import is_run, is_sweep, read_summary
 from dilatedem.results.snapshots import Snapshot
@@ -91,7 +93,7 @@ def post_run(run: RunFolder, signed: Signed | None = None) -> list[Path]:
     written, figures = save_all(run_drawings(run), run.path / "figures")
     if merge_summary(run.path / "summary.json", statistics):
         written.append(run.path / "summary.json")
-    written.append(report.write_run_report(run, statistics, figures, signed))
+    written.append(write_run_report(run, statistics, figures, signed))
     return written
 
 
@@ -105,7 +107,7 @@ def post_sweep(sweep: Sweep, choice: Choice = AS_IT_SUITS) -> list[Path]:
     }
     written, figures = save_all(sweep_drawings(found, laws), sweep.folder / "figures")
     written.append(write_statistics(found, laws))
-    written.append(sweep_report.write_sweep_report(found, laws, figures))
+    written.append(write_sweep_report(found, laws, figures))
     return written
 
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections import Counter
 from pathlib import Path
 
+from dilatedem.post.ensembles.sweeps import read_sweep, value_words
 from dilatedem.post.labels import axis_label, number
 from dilatedem.post.loads import load_statistics
 from dilatedem.post.read import RunFolder, open_run
-from dilatedem.post.sweeps import read_sweep, value_words
 from dilatedem.results.doubts import doubts
 from dilatedem.results.files import is_sweep
 

@@ -14,7 +14,7 @@ import dilatedem.run
 from dilatedem.case.load import load
 from dilatedem.cli import _clock, app
 from dilatedem.errors import CaseError, Interrupted, SimulationStopped
-from dilatedem.post import canvas
+from dilatedem.post.figures import canvas
 
 PILE = Path(__file__).parents[2] / "cases" / "pile.toml"
 

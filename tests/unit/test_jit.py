@@ -204,7 +204,7 @@ def test_the_digest_tells_sources_of_kernels_from_others(tmp_path, monkeypatch):
     shutil.copytree(Path(dilatedem.__file__).parent, package, ignore=shutil.ignore_patterns("__pycache__"))
     monkeypatch.setattr(cache, "_PACKAGE", package)
     before = cache.source_digest()
-    for other in ("post/report.py", "cli.py", "structures/pile.py"):
+    for other in ("post/report/page.py", "cli.py", "structures/pile.py"):
         (package / other).write_text("")
     assert cache.source_digest() == before
     digests = {before}

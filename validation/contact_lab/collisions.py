@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from matplotlib.figure import Figure
 
-from dilatedem.post.canvas import BLACK, new_figure, styled
+from dilatedem.post.figures.canvas import BLACK, new_figure, styled
 from validation.contact_lab.drawing import COLOUR
 from validation.contact_lab.impacts import Impact, collide
 from validation.contact_lab.scenes import COLUMNS, FLOE, HALF_FLOE, MODELS, scene

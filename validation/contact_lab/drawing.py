@@ -8,7 +8,7 @@ from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
-from dilatedem.post.canvas import BLUE, PNG_DPI, VERMILION
+from dilatedem.post.figures.canvas import BLUE, PNG_DPI, VERMILION
 from dilatedem.state.modes import MODE_NAMES
 
 COLOUR = {"liu2015": VERMILION, "consistent": BLUE}

@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from scipy.spatial.transform import Rotation
 
-from dilatedem.post.canvas import BLACK, new_figure, styled
+from dilatedem.post.figures.canvas import BLACK, new_figure, styled
 from dilatedem.post.labels import number
 from validation.contact_lab.attitudes import attitude
 from validation.contact_lab.drawing import COLOUR

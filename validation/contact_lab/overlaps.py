@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from matplotlib.figure import Figure
 
-from dilatedem.post.canvas import BLACK, new_figure, styled
+from dilatedem.post.figures.canvas import BLACK, new_figure, styled
 from dilatedem.post.labels import number
 from validation.contact_lab import pieces
 from validation.contact_lab.attitudes import attitude, feature_centre

@@ -8,7 +8,7 @@ from scipy.spatial.transform import Rotation
 from shapely import Polygon
 
 from dilatedem.case.schema import Case
-from dilatedem.post.canvas import BLACK, new_figure, styled
+from dilatedem.post.figures.canvas import BLACK, new_figure, styled
 from dilatedem.post.labels import number
 from validation.contact_lab.drawing import COLOUR
 from validation.contact_lab.impacts import collide

@@ -4,7 +4,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from dilatedem.post.canvas import BLUE, GREEN, ORANGE, PURPLE, new_figure, styled
+from dilatedem.post.figures.canvas import BLUE, GREEN, ORANGE, PURPLE, new_figure, styled
 from validation.contact_lab.drawing import REFERENCE
 from validation.contact_lab.impacts import collide
 from validation.contact_lab.pieces import RESTITUTION

@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from dilatedem.case.schema import Case
-from dilatedem.post.canvas import BLACK, BLUE, VERMILION, new_figure, styled
+from dilatedem.post.figures.canvas import BLACK, BLUE, VERMILION, new_figure, styled
 from dilatedem.post.labels import number
 from dilatedem.run.simulation import Simulation
 from dilatedem.state.clock import Status

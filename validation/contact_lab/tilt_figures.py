@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.ticker import NullFormatter
 
-from dilatedem.post.canvas import new_figure, styled
+from dilatedem.post.figures.canvas import new_figure, styled
 from dilatedem.post.labels import number
 from validation.contact_lab.drawing import COLOUR, mode_handles, mode_strip
 from validation.contact_lab.probe import Answers

@@ -16,7 +16,7 @@ from matplotlib.figure import Figure
 
 from dilatedem.case.load import load
 from dilatedem.output import folder
-from dilatedem.post.canvas import BLACK, BLUE, VERMILION, new_figure, styled
+from dilatedem.post.figures.canvas import BLACK, BLUE, VERMILION, new_figure, styled
 from dilatedem.post.labels import number
 from dilatedem.run.loop import run
 from validation.contact_lab.drawing import save_png

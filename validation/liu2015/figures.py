@@ -10,8 +10,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from dilatedem.post.canvas import BLUE, PNG_DPI, SKY, VERMILION, new_figure, styled
-from dilatedem.post.figures_loads import COLUMNS_DRAWN, draw_force, mark_extreme
+from dilatedem.post.figures.canvas import BLUE, PNG_DPI, SKY, VERMILION, new_figure, styled
+from dilatedem.post.figures.loads import COLUMNS_DRAWN, draw_force, mark_extreme
 from validation.liu2015.measures import FIRST_HITS, PILE, Ensemble, Result
 from validation.liu2015.plan import CASES, LARGE, MODELS, SIZE_SPEED, SMALL
 from validation.liu2015.statistics import FEWEST, band, gumbel

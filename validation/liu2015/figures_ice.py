@@ -8,8 +8,8 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 
-from dilatedem.post.canvas import ICE_EDGE, STRUCTURE, STRUCTURE_EDGE, new_figure, styled
-from dilatedem.post.plan import View, draw_domain, draw_floes, draw_flows, draw_structures, dress
+from dilatedem.post.figures.canvas import ICE_EDGE, STRUCTURE, STRUCTURE_EDGE, new_figure, styled
+from dilatedem.post.figures.plan import View, draw_domain, draw_floes, draw_flows, draw_structures, dress
 from dilatedem.results.snapshots import Snapshot, read_snapshot
 from validation.liu2015.figures import SHOWN_SEED, shown_run
 from validation.liu2015.ice import DRIFT, STRIP, empty_raster, rasterized, strips

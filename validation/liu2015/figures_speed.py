@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, NullLocator
 
-from dilatedem.post.canvas import new_figure, styled
+from dilatedem.post.figures.canvas import new_figure, styled
 from validation.liu2015.figures import APART, COLOUR, MARKER
 from validation.liu2015.measures import EQUAL_DRIFT, Ensemble
 from validation.liu2015.plan import MODELS

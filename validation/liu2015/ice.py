@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from dilatedem.post.plan import periodic_copies
+from dilatedem.post.figures.plan import periodic_copies
 from dilatedem.post.read import RunFolder
 from dilatedem.results.snapshots import Snapshot, read_snapshot
 

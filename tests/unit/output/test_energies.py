@@ -6,7 +6,7 @@ import pytest
 import dilatedem
 from dilatedem.numerics.balance import turned_over
 from dilatedem.output.energies import Totals, work_up
-from dilatedem.post.figures_energy import residual_share
+from dilatedem.post.figures.energy import residual_share
 from dilatedem.results.tables import read_table
 
 FLOE = [[-4.9, -1.4], [-2.1, -1.4], [-2.1, 1.4], [-4.9, 1.7]]

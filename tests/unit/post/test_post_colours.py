@@ -6,16 +6,16 @@ import pytest
 from test_post_ensembles import write_sweep
 from test_post_hits import archive  # noqa: F401  (a fixture)
 
-from dilatedem.post.canvas import new_figure
-from dilatedem.post.ensembles import study
-from dilatedem.post.extremes import extremes
-from dilatedem.post.figures_energy import TERMS, energy_figure
-from dilatedem.post.figures_field import SPEED_MAP
-from dilatedem.post.figures_hits import hit_figure
-from dilatedem.post.figures_motion import motion_figure
+from dilatedem.post.ensembles.laws import extremes
+from dilatedem.post.ensembles.study import study
+from dilatedem.post.ensembles.sweeps import read_sweep
+from dilatedem.post.figures.canvas import new_figure
+from dilatedem.post.figures.energy import TERMS, energy_figure
+from dilatedem.post.figures.field import SPEED_MAP
+from dilatedem.post.figures.hits import hit_figure
+from dilatedem.post.figures.motion import motion_figure
 from dilatedem.post.folders import run_drawings, sweep_drawings
 from dilatedem.post.read import open_run
-from dilatedem.post.sweeps import read_sweep
 from tests.colour_blind import LEAST_DISTANCE, SEEN, clashes, distance, lab
 
 

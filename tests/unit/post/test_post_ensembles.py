@@ -8,13 +8,13 @@ import pytest
 
 from dilatedem.errors import CaseError
 from dilatedem.post import post
-from dilatedem.post.ensembles import Choice, study
-from dilatedem.post.extremes import extremes
-from dilatedem.post.figures_grid import grid_figure
-from dilatedem.post.figures_rose import rose_figure
-from dilatedem.post.figures_sweep import places
-from dilatedem.post.part import Part
-from dilatedem.post.sweeps import read_sweep
+from dilatedem.post.ensembles.laws import extremes
+from dilatedem.post.ensembles.part import Part
+from dilatedem.post.ensembles.study import Choice, study
+from dilatedem.post.ensembles.sweeps import read_sweep
+from dilatedem.post.figures.grid import grid_figure
+from dilatedem.post.figures.rose import rose_figure
+from dilatedem.post.figures.sweep import places
 from dilatedem.statistics import mean, quantile
 
 

@@ -7,13 +7,13 @@ import matplotlib
 import numpy as np
 import pytest
 
-from dilatedem.post import canvas
-from dilatedem.post.figures_field import field_figure, plan_figure, speed_figure
-from dilatedem.post.figures_loads import force_figure, peak_figure
-from dilatedem.post.figures_map import load_around_figure, load_map_figure, seen_from, upstream_place, upstream_side
+from dilatedem.post.figures import canvas
+from dilatedem.post.figures.field import field_figure, plan_figure, speed_figure
+from dilatedem.post.figures.loads import force_figure, peak_figure
+from dilatedem.post.figures.map import load_around_figure, load_map_figure, seen_from, upstream_place, upstream_side
+from dilatedem.post.figures.plan import choose_view, periodic_copies
 from dilatedem.post.folders import hits_on, run_drawings
 from dilatedem.post.loads import angular_statistics
-from dilatedem.post.plan import choose_view, periodic_copies
 from dilatedem.post.read import open_run
 from dilatedem.post.snapshots import snapshots_at
 

@@ -4,7 +4,7 @@ import pytest
 from typer.testing import CliRunner
 
 from dilatedem.cli import app
-from dilatedem.post import canvas
+from dilatedem.post.figures import canvas
 
 HEADS = {"png": b"\x89PNG", "svg": b"<?xml", "pdf": b"%PDF"}
 

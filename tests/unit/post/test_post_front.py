@@ -6,11 +6,11 @@ from dataclasses import replace
 import pytest
 
 from dilatedem.post import post
-from dilatedem.post.front import direction, identity_rows, moment
-from dilatedem.post.ice import field_rows
-from dilatedem.post.inputs import input_groups, meanings, schema_key
 from dilatedem.post.read import open_run
-from dilatedem.post.report import css_text, in_code
+from dilatedem.post.report.front import direction, identity_rows, moment
+from dilatedem.post.report.ice import field_rows
+from dilatedem.post.report.inputs import input_groups, meanings, schema_key
+from dilatedem.post.report.page import css_text, in_code
 
 
 @pytest.fixture(scope="module")

@@ -7,10 +7,10 @@ import pytest
 
 from dilatedem.output.archive import ContactStatistics, FloeTable, PlanOutline, RunArchive
 from dilatedem.output.kept_hits import kept_hits
-from dilatedem.post.events import event_rows, pressure_words
-from dilatedem.post.figures_hits import hit_figure
+from dilatedem.post.figures.hits import hit_figure
 from dilatedem.post.folders import hits_on, run_statistics
 from dilatedem.post.read import open_run
+from dilatedem.post.report.events import event_rows, pressure_words
 from dilatedem.results.archive import read_archive
 from dilatedem.state import hits
 from dilatedem.state.hits import no_hits

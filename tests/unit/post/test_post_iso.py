@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from dilatedem.post.iso import Bound, bound_of, bound_rows, global_pressure, width_across
 from dilatedem.post.read import open_run
+from dilatedem.post.report.iso import Bound, bound_of, bound_rows, global_pressure, width_across
 
 
 @pytest.mark.parametrize(

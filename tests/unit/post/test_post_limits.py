@@ -5,9 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from dilatedem.post.checks import FINE, LOOK, UNKNOWN, checks, verdict_words
-from dilatedem.post.limits import drag_words, length_of, limits, neighbour_words, pressure_words, waiting_words
 from dilatedem.post.read import open_run
+from dilatedem.post.report.checks import FINE, LOOK, UNKNOWN, checks, verdict_words
+from dilatedem.post.report.limits import drag_words, length_of, limits, neighbour_words, pressure_words, waiting_words
 
 
 @pytest.fixture(scope="module")

@@ -7,11 +7,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from dilatedem.post import moving
-from dilatedem.post.histories import PANELS, history_data
-from dilatedem.post.moving import moving_plan
-from dilatedem.post.pack import as_json
 from dilatedem.post.read import open_run
+from dilatedem.post.report import moving
+from dilatedem.post.report.histories import PANELS, history_data
+from dilatedem.post.report.moving import moving_plan
+from dilatedem.post.report.pack import as_json
 
 
 @pytest.fixture(scope="module")

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from dilatedem.post.figures_energy import residual_share
+from dilatedem.post.figures.energy import residual_share
 from dilatedem.post.loads import (
     along_and_across,
     angular_statistics,

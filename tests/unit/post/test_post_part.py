@@ -5,7 +5,7 @@ import math
 import pytest
 
 from dilatedem.errors import CaseError
-from dilatedem.post.part import Part, drift, read_part, time_of_drift
+from dilatedem.post.ensembles.part import Part, drift, read_part, time_of_drift
 
 
 def case(**water):

@@ -5,8 +5,8 @@ import numpy as np
 import pytest
 
 from dilatedem.errors import CaseError
-from dilatedem.post.limits import limits
 from dilatedem.post.read import open_run
+from dilatedem.post.report.limits import limits
 from dilatedem.post.snapshots import snapshots_at
 from dilatedem.results.snapshots import read_snapshot
 from dilatedem.results.tables import row_count

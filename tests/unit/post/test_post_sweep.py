@@ -7,12 +7,12 @@ import pytest
 
 from dilatedem.errors import CaseError
 from dilatedem.post import info
-from dilatedem.post.ensembles import study
-from dilatedem.post.figures_sweep import places, sweep_figure
+from dilatedem.post.ensembles.study import study
+from dilatedem.post.ensembles.sweeps import axis_value, compare_runs, read_sweep
+from dilatedem.post.figures.sweep import places, sweep_figure
 from dilatedem.post.folders import post_sweep
 from dilatedem.post.labels import axis_label, flatten, number, show
 from dilatedem.post.read import open_run
-from dilatedem.post.sweeps import axis_value, compare_runs, read_sweep
 
 LOADS = ("fx_max", "fx_mean", "fy_max", "fy_min", "fh_max")
 

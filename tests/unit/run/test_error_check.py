@@ -16,7 +16,7 @@ from dilatedem.output.windows import end_open_window
 from dilatedem.post import info, post
 from dilatedem.post.folders import run_statistics
 from dilatedem.post.read import open_run
-from dilatedem.post.report import write_run_report
+from dilatedem.post.report.page import write_run_report
 from dilatedem.run import loop
 from dilatedem.run.error_check import LEAD, TAIL, WINDOW, Watch, check
 from dilatedem.run.simulation import Simulation

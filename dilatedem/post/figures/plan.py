@@ -12,7 +12,7 @@ from matplotlib.collections import PolyCollection
 from matplotlib.patches import Polygon, Rectangle
 from matplotlib.ticker import MaxNLocator
 
-from dilatedem.post.canvas import BLACK, STRUCTURE, STRUCTURE_EDGE
+from dilatedem.post.figures.canvas import BLACK, STRUCTURE, STRUCTURE_EDGE
 from dilatedem.post.read import RunFolder
 
 DRIFT_SHOWN = 0.5  # domain lengths that floes are followed beyond an open side

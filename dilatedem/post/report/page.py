@@ -10,20 +10,20 @@ import jinja2
 from markupsafe import Markup
 
 from dilatedem.files.atomic import write_text
-from dilatedem.post.canvas import Drawing, file_name
-from dilatedem.post.checks import checks, verdict_words
-from dilatedem.post.events import event_rows, pressure_words
-from dilatedem.post.front import Signed, basis_rows, headline, identity_rows
-from dilatedem.post.histories import COLUMNS, history_data
-from dilatedem.post.ice import field_rows
-from dilatedem.post.inputs import input_groups
-from dilatedem.post.iso import SHARE, bound_of, bound_rows
-from dilatedem.post.limits import limits
-from dilatedem.post.moving import moving_plan
+from dilatedem.post.figures.canvas import Drawing, file_name
 from dilatedem.post.overview import status_words
-from dilatedem.post.pack import as_json
 from dilatedem.post.read import RunFolder
-from dilatedem.post.tables import (
+from dilatedem.post.report.checks import checks, verdict_words
+from dilatedem.post.report.events import event_rows, pressure_words
+from dilatedem.post.report.front import Signed, basis_rows, headline, identity_rows
+from dilatedem.post.report.histories import COLUMNS, history_data
+from dilatedem.post.report.ice import field_rows
+from dilatedem.post.report.inputs import input_groups
+from dilatedem.post.report.iso import SHARE, bound_of, bound_rows
+from dilatedem.post.report.limits import limits
+from dilatedem.post.report.moving import moving_plan
+from dilatedem.post.report.pack import as_json
+from dilatedem.post.report.tables import (
     contact_table,
     energy_rows,
     fact_rows,

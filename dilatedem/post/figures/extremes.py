@@ -7,10 +7,10 @@ from matplotlib.axes import Axes
 from matplotlib.ticker import MaxNLocator
 from scipy import stats
 
-from dilatedem.post.canvas import BLACK, BLUE, GREEN, ORANGE, SKY, VERMILION, Drawing, file_name, new_figure, styled
-from dilatedem.post.ensembles import Ensemble, Study
-from dilatedem.post.extremes import Extremes
-from dilatedem.post.figures_sweep import setting_words
+from dilatedem.post.ensembles.laws import Extremes
+from dilatedem.post.ensembles.study import Ensemble, Study
+from dilatedem.post.figures.canvas import BLACK, BLUE, GREEN, ORANGE, SKY, VERMILION, Drawing, file_name, new_figure, styled
+from dilatedem.post.figures.sweep import setting_words
 from dilatedem.post.labels import number
 from dilatedem.statistics import Band, Gumbel, Pareto, fit_gumbel, growth, needed
 from dilatedem.statistics.gumbel import plotting_places, reduced

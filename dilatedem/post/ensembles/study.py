@@ -10,11 +10,11 @@ from typing import Any
 import numpy as np
 
 from dilatedem.errors import CaseError
+from dilatedem.post.ensembles.measures import Loads, loads_of, loads_of_row
+from dilatedem.post.ensembles.part import Part, drift
+from dilatedem.post.ensembles.sweeps import Sweep, SweepRun
 from dilatedem.post.loads import HIT_FORCE, HIT_GAP
-from dilatedem.post.measures import Loads, loads_of, loads_of_row
-from dilatedem.post.part import Part, drift
 from dilatedem.post.read import RunFolder, open_facts, read_forces
-from dilatedem.post.sweeps import Sweep, SweepRun
 from dilatedem.results.files import is_run
 from dilatedem.statistics import peaks_above
 

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from dilatedem.post.ensembles import Ensemble, Study
-from dilatedem.post.measures import HIGHEST
+from dilatedem.post.ensembles.measures import HIGHEST
+from dilatedem.post.ensembles.study import Ensemble, Study
 from dilatedem.statistics import GEV, Band, Gumbel, Pareto, fit_gev, fit_gumbel, fit_pareto, mean_excess, suitable_threshold
 
 #: loads are told that one of so many runs exceeds

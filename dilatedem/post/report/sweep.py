@@ -6,15 +6,15 @@ import math
 from pathlib import Path
 from typing import Any
 
-from dilatedem.post.canvas import Drawing
-from dilatedem.post.ensembles import Ensemble, Study
-from dilatedem.post.extremes import LEVELS, Extremes
-from dilatedem.post.figures_sweep import plural, turns, vector_words
+from dilatedem.post.ensembles.laws import LEVELS, Extremes
+from dilatedem.post.ensembles.measures import HIGHEST, MEAN_ALONG, QUANTITIES
+from dilatedem.post.ensembles.study import Ensemble, Study
+from dilatedem.post.ensembles.sweeps import Sweep, relative, value_words
+from dilatedem.post.ensembles.table import Laws, of_quantity
+from dilatedem.post.figures.canvas import Drawing
+from dilatedem.post.figures.sweep import plural, turns, vector_words
 from dilatedem.post.labels import axis_label, number, show
-from dilatedem.post.measures import HIGHEST, MEAN_ALONG, QUANTITIES
-from dilatedem.post.report import inline, render
-from dilatedem.post.statistics_table import Laws, of_quantity
-from dilatedem.post.sweeps import Sweep, relative, value_words
+from dilatedem.post.report.page import inline, render
 from dilatedem.results.doubts import doubts
 from dilatedem.results.files import read_summary
 from dilatedem.statistics import Band, needed

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from dilatedem.post.loads import window_lengths
-from dilatedem.post.pack import FULL, pack, scaled
+from dilatedem.post.report.pack import FULL, pack, scaled
 from dilatedem.results.tables import Table
 
 #: columns of all histories of a page together; beyond that windows are joined, by their extremes

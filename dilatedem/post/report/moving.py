@@ -6,10 +6,10 @@ from typing import Any
 
 import numpy as np
 
-from dilatedem.post.figures_field import speed_scale
-from dilatedem.post.pack import FULL, pack, scaled
-from dilatedem.post.plan import choose_view, domain_limits
+from dilatedem.post.figures.field import speed_scale
+from dilatedem.post.figures.plan import choose_view, domain_limits
 from dilatedem.post.read import RunFolder
+from dilatedem.post.report.pack import FULL, pack, scaled
 from dilatedem.results.snapshots import Snapshot, read_snapshot
 
 #: pictures, and corners of all pictures together, at most: more makes the page long to load

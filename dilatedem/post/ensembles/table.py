@@ -11,10 +11,10 @@ from pathlib import Path
 from typing import Any
 
 from dilatedem.files.atomic import write_text
-from dilatedem.post.ensembles import Ensemble, Study
-from dilatedem.post.extremes import Extremes
+from dilatedem.post.ensembles.laws import Extremes
+from dilatedem.post.ensembles.measures import HIGHEST, QUANTITIES
+from dilatedem.post.ensembles.study import Ensemble, Study
 from dilatedem.post.harm import STATISTICS, STATISTICS_END
-from dilatedem.post.measures import HIGHEST, QUANTITIES
 from dilatedem.statistics import Band, deviation, mean, quantile
 
 #: of the values of all runs, in percent

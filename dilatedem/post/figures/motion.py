@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from dilatedem.post.canvas import BLACK, BLUE, GREEN, SKY, Drawing, file_name, new_figure, styled
+from dilatedem.post.figures.canvas import BLACK, BLUE, GREEN, SKY, Drawing, file_name, new_figure, styled
 from dilatedem.post.labels import number
 from dilatedem.results.tables import Table
 

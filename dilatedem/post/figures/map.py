@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm
 from matplotlib.ticker import MaxNLocator
 
-from dilatedem.post.canvas import BLACK, BLUE, SKY, VERMILION, Drawing, file_name, new_figure, styled
+from dilatedem.post.figures.canvas import BLACK, BLUE, SKY, VERMILION, Drawing, file_name, new_figure, styled
 from dilatedem.post.labels import number
 from dilatedem.post.loads import SENSE, angular_statistics, from_zero, mean_force_by_place, zero_words
 from dilatedem.results.archive import LoadMap

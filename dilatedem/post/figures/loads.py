@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 
-from dilatedem.post.canvas import BLACK, BLUE, GREEN, SKY, VERMILION, Drawing, file_name, new_figure, styled
+from dilatedem.post.figures.canvas import BLACK, BLUE, GREEN, SKY, VERMILION, Drawing, file_name, new_figure, styled
 from dilatedem.post.labels import number
 from dilatedem.post.loads import along_and_across, hit_words, window_lengths
 from dilatedem.results.tables import Table

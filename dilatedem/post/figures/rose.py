@@ -9,11 +9,11 @@ import numpy as np
 from matplotlib.projections.polar import PolarAxes
 from matplotlib.ticker import MaxNLocator
 
-from dilatedem.post.canvas import MARKERS, SERIES, Drawing, file_name, new_figure, styled
-from dilatedem.post.ensembles import Ensemble, Study
-from dilatedem.post.figures_sweep import direction, setting_words
+from dilatedem.post.ensembles.measures import HIGHEST, MEAN_ALONG
+from dilatedem.post.ensembles.study import Ensemble, Study
+from dilatedem.post.figures.canvas import MARKERS, SERIES, Drawing, file_name, new_figure, styled
+from dilatedem.post.figures.sweep import direction, setting_words
 from dilatedem.post.labels import number
-from dilatedem.post.measures import HIGHEST, MEAN_ALONG
 from dilatedem.statistics import mean
 
 #: with fewer directions a rose shows nothing that two numbers do not

@@ -7,11 +7,11 @@ import math
 import numpy as np
 from matplotlib.axes import Axes
 
-from dilatedem.post.canvas import Drawing, file_name, new_figure, styled
-from dilatedem.post.ensembles import Study
-from dilatedem.post.figures_sweep import PANELS, Places, place_label, places
+from dilatedem.post.ensembles.measures import HIGHEST
+from dilatedem.post.ensembles.study import Study
+from dilatedem.post.figures.canvas import Drawing, file_name, new_figure, styled
+from dilatedem.post.figures.sweep import PANELS, Places, place_label, places
 from dilatedem.post.labels import describe_key, number
-from dilatedem.post.measures import HIGHEST
 from dilatedem.statistics import mean
 
 #: with more values along an axis the cells have no room for their numbers

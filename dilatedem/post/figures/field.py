@@ -8,9 +8,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from dilatedem.post.canvas import FAST_ICE, ICE, ICE_EDGE, WATER, Drawing, new_figure, styled
-from dilatedem.post.labels import number
-from dilatedem.post.plan import (
+from dilatedem.post.figures.canvas import FAST_ICE, ICE, ICE_EDGE, WATER, Drawing, new_figure, styled
+from dilatedem.post.figures.plan import (
     DRIFT_SHOWN,
     View,
     choose_view,
@@ -20,6 +19,7 @@ from dilatedem.post.plan import (
     draw_structures,
     dress,
 )
+from dilatedem.post.labels import number
 from dilatedem.post.read import RunFolder
 from dilatedem.results.snapshots import Snapshot
 

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 from datetime import datetime
 from typing import Any
 
-from dilatedem.post.iso import SHARE, STRENGTHS, bound_of
 from dilatedem.post.labels import kilo, number, show
 from dilatedem.post.read import RunFolder
+from dilatedem.post.report.iso import SHARE, STRENGTHS, bound_of
 
 Rows = list[list[str]]
 

@@ -9,11 +9,11 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.ticker import LogLocator, NullLocator
 
-from dilatedem.post.canvas import MARKERS, SERIES, Drawing, file_name, new_figure, styled
-from dilatedem.post.ensembles import Ensemble, Study
+from dilatedem.post.ensembles.measures import HIGHEST, MEAN_ALONG, QUANTITIES
+from dilatedem.post.ensembles.study import Ensemble, Study
+from dilatedem.post.ensembles.sweeps import axis_value, is_velocity, value_words
+from dilatedem.post.figures.canvas import MARKERS, SERIES, Drawing, file_name, new_figure, styled
 from dilatedem.post.labels import axis_label, describe_key, number, show
-from dilatedem.post.measures import HIGHEST, MEAN_ALONG, QUANTITIES
-from dilatedem.post.sweeps import axis_value, is_velocity, value_words
 from dilatedem.statistics import Band, mean
 
 PANELS = ((HIGHEST, "Highest horizontal force (kN)"), (MEAN_ALONG, "Mean force along the current (kN)"))

@@ -8,11 +8,11 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.patches import Polygon
 
-from dilatedem.post.canvas import BLACK, BLUE, ICE, ICE_EDGE, SKY, VERMILION, WATER, Drawing, new_figure, styled
-from dilatedem.post.figures_loads import with_end
+from dilatedem.post.figures.canvas import BLACK, BLUE, ICE, ICE_EDGE, SKY, VERMILION, WATER, Drawing, new_figure, styled
+from dilatedem.post.figures.loads import with_end
+from dilatedem.post.figures.plan import draw_structures
 from dilatedem.post.labels import number
 from dilatedem.post.loads import window_lengths
-from dilatedem.post.plan import draw_structures
 from dilatedem.post.read import RunFolder
 from dilatedem.results.hits import KeptHit
 from dilatedem.results.tables import Table

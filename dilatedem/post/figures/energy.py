@@ -8,7 +8,7 @@ from types import MappingProxyType
 import numpy as np
 
 from dilatedem.numerics import balance
-from dilatedem.post.canvas import (
+from dilatedem.post.figures.canvas import (
     BLACK,
     BLUE,
     GREEN,
