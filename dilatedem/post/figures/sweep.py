@@ -53,8 +53,12 @@ def vector_words(value: Any) -> str:
 
 def place_label(key: str, found: Places) -> str:
     """What is on the axis of a key."""
-    components = is_velocity(key) and any(isinstance(place, str) for place in found.values())
-    return axis_label(key).replace("speed", "along x, along y") if components else axis_label(key)
+    return turning_label(key) if is_velocity(key) and any(isinstance(place, str) for place in found.values()) else axis_label(key)
+
+
+def turning_label(key: str) -> str:
+    """Of a velocity that turns: the words for both components."""
+    return axis_label(key).replace("speed", "along x, along y")
 
 
 def direction(velocity: list[float]) -> float | None:

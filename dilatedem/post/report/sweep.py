@@ -9,10 +9,10 @@ from typing import Any
 from dilatedem.post.ensembles.laws import LEVELS, Extremes
 from dilatedem.post.ensembles.measures import HIGHEST, MEAN_ALONG, QUANTITIES
 from dilatedem.post.ensembles.study import Ensemble, Study
-from dilatedem.post.ensembles.sweeps import Sweep, relative, value_words
+from dilatedem.post.ensembles.sweeps import relative, value_words
 from dilatedem.post.ensembles.table import Laws, of_quantity
 from dilatedem.post.figures.canvas import Drawing
-from dilatedem.post.figures.sweep import plural, turns, vector_words
+from dilatedem.post.figures.sweep import plural, turning_label, turns, vector_words
 from dilatedem.post.labels import axis_label, number, show
 from dilatedem.post.report.page import inline, render
 from dilatedem.results.doubts import doubts
@@ -37,14 +37,14 @@ def write_sweep_report(study: Study, laws: Laws, figures: list[tuple[Drawing, st
         "sweep.html",
         sweep.folder / "report.html",
         title=sweep.title,
-        keys=[(key, axis_label(key)) for key in sweep.keys],
+        keys=[(key, head_words(study, key)) for key in sweep.keys],
         figures=inline(figures),
         looked_at=part_words(study),
         statistics=[table for structure in sweep.structures for table in statistics_tables(study, structure)],
         enough=enough_words(study),
         rare=[table for structure in sweep.structures if (table := rare_table(study, structure, laws))["rows"]],
         hits=f"{number(study.threshold / 1e3, 3)} kN, apart by {number(study.gap)} s or more below it",
-        runs=run_table(sweep),
+        runs=run_table(study),
         count=len(sweep.runs),
         completed=sum(run.completed for run in sweep.runs),
     )
@@ -73,20 +73,25 @@ def statistics_tables(study: Study, structure: str) -> list[dict[str, Any]]:
     tables = []
     for quantity in (HIGHEST, MEAN_ALONG):
         rows = [
-            [*key_cells(study, ensemble), *statistics_cells(ensemble, structure, quantity)]
+            [*value_cells(study, ensemble.values), *statistics_cells(ensemble, structure, quantity)]
             for ensemble in study.ensembles
             if len(ensemble.sample(structure, quantity))
         ]
         if rows:
-            head = [axis_label(key) for key in study.sweep.keys]
+            head = [head_words(study, key) for key in study.sweep.keys]
             tables.append({"title": f"{structure}: {QUANTITIES[quantity]} (kN)", "head": head, "rows": rows})
     return tables
 
 
-def key_cells(study: Study, ensemble: Ensemble) -> list[str]:
+def head_words(study: Study, key: str) -> str:
+    """A key at the head of a column."""
+    return turning_label(key) if turns(study, key) else axis_label(key)
+
+
+def value_cells(study: Study, values: dict[str, Any]) -> list[str]:
     """Values of the keys; both components of a velocity that turns."""
-    values = [(key, ensemble.values[key]) for key in study.sweep.keys]
-    return [vector_words(value) if turns(study, key) else value_words(key, value) for key, value in values]
+    keys = study.sweep.keys
+    return [vector_words(values[key]) if turns(study, key) else value_words(key, values[key]) for key in keys]
 
 
 def statistics_cells(ensemble: Ensemble, structure: str, quantity: str) -> list[str]:
@@ -125,8 +130,8 @@ def rare_table(study: Study, structure: str, laws: Laws) -> dict[str, Any]:
         found = laws.get((place, structure))
         if found is None or found.gumbel is None:
             continue
-        rows += [[*key_cells(study, ensemble), *cells] for cells in law_rows(found)]
-    return {"title": structure, "head": [axis_label(key) for key in study.sweep.keys], "levels": LEVELS, "rows": rows}
+        rows += [[*value_cells(study, ensemble.values), *cells] for cells in law_rows(found)]
+    return {"title": structure, "head": [head_words(study, key) for key in study.sweep.keys], "levels": LEVELS, "rows": rows}
 
 
 def law_rows(found: Extremes) -> Rows:
@@ -147,16 +152,17 @@ def law_rows(found: Extremes) -> Rows:
     return rows
 
 
-def run_table(sweep: Sweep) -> dict[str, Any]:
+def run_table(study: Study) -> dict[str, Any]:
     """One row for each run, with a link to its own report where there is one; parts of structures would go beyond a page."""
+    sweep = study.sweep
     quantities = (("fh_max", "highest horizontal"), ("along_max", "highest along"), ("along_mean", "mean along"))
     columns = [(name, quantity, label) for name in sweep.structures if "/" not in name for quantity, label in quantities]
-    head = [axis_label(key) for key in sweep.keys] + ["Seed", "Status"]
+    head = [head_words(study, key) for key in sweep.keys] + ["Seed", "Status"]
     head += [f"{name}: {label} (kN)" for name, _, label in columns] + ["Residual / work (%)"]
     rows = []
     for run in sweep.runs:
         loads = [run.loads.get(name, {}).get(quantity, math.nan) for name, quantity, _ in columns]
-        cells = [value_words(key, run.values[key]) for key in sweep.keys] + [show(run.seed), run.status]
+        cells = value_cells(study, run.values) + [show(run.seed), run.status]
         cells += [number(load / 1e3) for load in loads] + [number(100.0 * run.residual_over_work, 2)]
         page = run.folder / "report.html"
         link = relative(page, sweep.folder) if page.is_file() else ""
