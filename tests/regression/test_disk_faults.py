@@ -4,6 +4,7 @@ Every function that asks the system for a file is made to fail, here at some of 
 """
 
 import errno
+import math
 import os
 import shutil
 from collections.abc import Callable
@@ -44,6 +45,12 @@ def half(case, tmp_path, monkeypatch) -> Path:
         loop.run(load(case), tmp_path / "half", quiet=True)
     monkeypatch.undo()
     return tmp_path / "half"
+
+
+@pytest.fixture(autouse=True)
+def no_lines_now_and_then(monkeypatch):
+    """A slow machine is told what is being done on standard error, where faults are looked for."""
+    monkeypatch.setattr("dilatedem.commands.manners.LINE_INTERVAL_S", math.inf)
 
 
 def faults_at(every: int, out: Path, prepare: Callable[[], None], *command):
