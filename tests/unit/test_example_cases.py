@@ -10,6 +10,7 @@ from dilatedem import examples
 from dilatedem.case.load import load
 from dilatedem.cli import app
 from dilatedem.errors import CaseError
+from dilatedem.run.simulation import Simulation
 
 CASES = Path(__file__).parents[2] / "cases"
 
@@ -32,6 +33,11 @@ def test_every_example_is_written_as_it_stands_and_can_be_loaded(name, tmp_path)
     assert load(written[0]).title == examples.title(name)
     text = written[0].read_text()
     assert text.count("#") >= 5, "an example explains itself"
+
+
+def test_the_small_example_is_ready_for_a_sweep_of_seeds():
+    for seed in range(1, 21):  # a period too short for the two largest floes of a field would refuse it
+        assert Simulation.of_case(load(CASES / "small.toml", [f"field.seed={seed}"])).model.floating > 20
 
 
 def test_the_paper_s_case_unless_another_is_named(tmp_path, monkeypatch):
