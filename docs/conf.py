@@ -1,0 +1,63 @@
+"""The site of these pages: `sphinx-build -W -c docs . site`, from the top of the repository, so that every link is one between files."""
+
+import re
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).parents[1]
+sys.path.insert(0, str(ROOT))  # the package of this tree, whatever is installed
+
+from dilatedem import __version__  # noqa: E402
+
+project, author, release = "dilatedem", "the authors of dilatedem", __version__
+extensions = ["myst_parser", "sphinx.ext.autodoc"]
+source_suffix = {".md": "markdown"}
+root_doc = "docs/index"
+include_patterns = ["docs/**.md", "validation/**.md", "benchmarks/*.md", "CHANGELOG.md", "CONTRIBUTING.md"]
+exclude_patterns = ["validation/reliability/fuzz.md"]  # a table that a script writes, for its page
+highlight_language = "none"
+myst_heading_anchors = 4  # those of a code host
+
+default_role = "code"  # docstrings are Markdown
+autodoc_default_options = {"members": True, "member-order": "bysource"}
+autodoc_typehints = "signature"
+
+html_theme = "furo"
+html_title = f"dilatedem {release}"
+html_static_path = ["static"]
+html_extra_path = ["front"]  # leads to docs/index.html
+html_css_files = ["site.css"]
+html_copy_source = False
+
+#: pages whose links to pages of their own folder, and below, are what the site's menu shows under them
+CONTENTS = ("docs/index", "docs/cases/README", "validation/README")
+HEADING, LINK = re.compile(r"^## (.+)$"), re.compile(r"\]\(([^)#:]+\.md)\)")
+
+
+def contents(page: str, text: str) -> str:
+    """Menus of a page of contents: one for each heading of second order, with the pages below it in the order of their first links."""
+    menus, seen = {"": []}, set()
+    for line in text.splitlines():
+        if found := HEADING.match(line):
+            menus[found[1]] = []
+        for link in LINK.findall(line):
+            name = (Path(page).parent / link).with_suffix("")
+            name = "/" + str((ROOT / name).resolve().relative_to(ROOT))
+            if name not in seen:
+                seen.add(name)
+                menus[list(menus)[-1]].append(name)
+    return "".join(menu(heading, pages) for heading, pages in menus.items() if pages)
+
+
+def menu(heading: str, pages: list[str]) -> str:
+    options = [":hidden:", *([f":caption: {heading}"] if heading else [])]
+    return "\n".join(["", "```{toctree}", *options, "", *pages, "```", ""])
+
+
+def add_contents(app, page: str, source: list[str]) -> None:
+    if page in CONTENTS:
+        source[0] += contents(page, source[0])
+
+
+def setup(app) -> None:
+    app.connect("source-read", add_contents)
