@@ -1,4 +1,4 @@
-"""The site of these pages: `sphinx-build -W -c docs . site`, from the top of the repository, so that every link is one between files."""
+"""The site of these pages: `sphinx-build -W -c docs . site`, from the top of the repository, so that links are those of files."""
 
 import re
 import sys
@@ -29,20 +29,19 @@ html_extra_path = ["front"]  # leads to docs/index.html
 html_css_files = ["site.css"]
 html_copy_source = False
 
-#: pages whose links to pages of their own folder, and below, are what the site's menu shows under them
-CONTENTS = ("docs/index", "docs/cases/README", "validation/README")
+#: pages of contents, and how their lines begin of which the links make the site's menu
+CONTENTS = {"docs/index": "* ", "docs/cases/README": "| ", "validation/README": ""}
 HEADING, LINK = re.compile(r"^## (.+)$"), re.compile(r"\]\(([^)#:]+\.md)\)")
 
 
 def contents(page: str, text: str) -> str:
-    """Menus of a page of contents: one for each heading of second order, with the pages below it in the order of their first links."""
+    """Menus of a page of contents: for each heading of second order the pages below it, in the order of their first links."""
     menus, seen = {"": []}, set()
     for line in text.splitlines():
         if found := HEADING.match(line):
             menus[found[1]] = []
-        for link in LINK.findall(line):
-            name = (Path(page).parent / link).with_suffix("")
-            name = "/" + str((ROOT / name).resolve().relative_to(ROOT))
+        for link in LINK.findall(line) if line.startswith(CONTENTS[page]) else []:
+            name = "/" + (ROOT / page).parent.joinpath(link).resolve().relative_to(ROOT).with_suffix("").as_posix()
             if name not in seen:
                 seen.add(name)
                 menus[list(menus)[-1]].append(name)

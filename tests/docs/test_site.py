@@ -18,7 +18,8 @@ def site(tmp_path_factory) -> Path:
     pytest.importorskip("furo")
     pytest.importorskip("myst_parser")
     folder = tmp_path_factory.mktemp("site")
-    command = [sys.executable, "-m", "sphinx", "-q", "-W", "--keep-going", "-c", "docs", "-d", folder / "doctrees", ".", folder / "html"]
+    options = ["-q", "-W", "--keep-going", "-c", "docs", "-d", folder / "doctrees"]
+    command = [sys.executable, "-m", "sphinx", *options, ".", folder / "html"]
     # no network: whoever asks for it is sent to a port where nobody listens
     nowhere = {name: "http://127.0.0.1:9" for name in ("http_proxy", "https_proxy", "HTTP_PROXY", "HTTPS_PROXY")}
     built = subprocess.run(command, cwd=ROOT, env=os.environ | nowhere, capture_output=True, text=True)
@@ -42,7 +43,8 @@ def test_pages_of_a_site_need_no_network(site):
 
 def test_docstrings_of_the_public_names_stand_on_the_page_of_the_api(site):
     text = (site / "docs/api.html").read_text(encoding="utf-8")
-    names = re.findall(r"^ *\.\. auto(?:class|function|exception):: (\S+)$", (ROOT / "docs/api.md").read_text(encoding="utf-8"), re.MULTILINE)
+    page = (ROOT / "docs/api.md").read_text(encoding="utf-8")
+    names = re.findall(r"^ *\.\. auto(?:class|function|exception):: (\S+)$", page, re.MULTILINE)
     assert len(names) > 20
     for name in names:
         assert f'id="{name}"' in text or f'id="dilatedem.{name.rpartition(".")[2]}"' in text, name
