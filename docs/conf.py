@@ -9,7 +9,7 @@ sys.path.insert(0, str(ROOT))  # the package of this tree, whatever is installed
 
 from dilatedem import __version__  # noqa: E402
 
-project, author, release = "dilatedem", "the authors of dilatedem", __version__
+project, release = "dilatedem", __version__
 extensions = ["myst_parser", "sphinx.ext.autodoc"]
 source_suffix = {".md": "markdown"}
 root_doc = "docs/index"
@@ -27,7 +27,7 @@ html_title = f"dilatedem {release}"
 html_static_path = ["static"]
 html_extra_path = ["front"]  # leads to docs/index.html
 html_css_files = ["site.css"]
-html_copy_source = False
+html_copy_source = html_show_copyright = False
 
 #: pages of contents, and how their lines begin of which the links make the site's menu
 CONTENTS = {"docs/index": "* ", "docs/cases/README": "| ", "validation/README": ""}
