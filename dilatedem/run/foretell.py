@@ -19,8 +19,9 @@ from dilatedem.state.clock import Status
 TRIAL_S = 0.5
 #: steps that are tried at first, then twice as many each time
 FIRST_TRIAL = 64
-#: s that a drifting floe and a step take where nothing was tried, and how much longer in a jam (docs/performance.md, time per step)
-USUAL_COST, JAMMED = 1e-8, 4.0
+#: s that a step takes where nothing was tried, at a few contacts and for each drifting floe, and how much longer in a jam
+#: (docs/performance.md, whole runs and time per step)
+USUAL_STEP, USUAL_FLOE, JAMMED = 5e-6, 1e-8, 4.0
 
 
 def check(case: Case, *, trial_s: float = 0.0) -> dict:
@@ -62,8 +63,10 @@ def check(case: Case, *, trial_s: float = 0.0) -> dict:
 def _wall_time(simulation: Simulation, steps: int, trial_s: float) -> dict:
     """How long the steps of a run take [s], by trying the first of them, else by what floes usually take; and in a jam."""
     cost = _step_cost(simulation, trial_s) if trial_s > 0.0 and simulation.is_compiled() else None
-    tried, seconds = cost is not None, steps * (USUAL_COST * simulation.model.floating if cost is None else cost)
-    return {"wall time, s, about": seconds, "wall time in a jam, s, about": JAMMED * seconds, "wall time was tried": tried}
+    seconds = steps * (USUAL_STEP + USUAL_FLOE * simulation.model.floating if cost is None else cost)
+    return {
+        "wall time, s, about": seconds, "wall time in a jam, s, about": JAMMED * seconds, "wall time was tried": cost is not None,
+    }  # fmt: skip
 
 
 def _step_cost(simulation: Simulation, trial_s: float) -> float | None:

@@ -110,7 +110,8 @@ def sweep_figure(study: Study, structure: str, key: str) -> Drawing | None:
         figure.legend(*panels[0].get_legend_handles_labels(), loc="outside lower center", ncols=columns)
     caption = sweep_caption(study, structure, key, ensembles, others)
     name = f"force_by_{file_name(key)}_{file_name(structure)}"
-    return Drawing(name, f"Force on {structure} by {describe_key(key)[0]}", caption, figure)
+    what = "direction of the current" if turns(study, key) else describe_key(key)[0]
+    return Drawing(name, f"Force on {structure} by {what}", caption, figure)
 
 
 def varies(ensembles: list[Ensemble], key: str) -> bool:

@@ -86,7 +86,7 @@ def breaking_words(run: RunFolder) -> str:
         f"the length from which a floe that rides up a slope breaks under its own weight at a flexural strength of "
         f"{number(FLEXURAL_STRENGTH / 1e6)} MPa"
     )
-    verdict = "on a slope these would break first, and load it less than here" if count else "they crush before they bend"
+    verdict = "on a slope these would break first, and load it less than here" if count else "none is long enough to break that way"
     return f"{rigid} Here {told}, {meaning}: {verdict}."
 
 
