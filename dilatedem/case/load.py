@@ -138,9 +138,15 @@ def _told(
     found: Sequence[tuple[Path, str]], count: int, source: Source, lines: dict[Path, int], written: Sequence[tuple[Path, Override]]
 ) -> str:
     """A line a fault, with the place it comes from; `count`: of all, told or not."""
-    told = [f"{_origin(path, source, lines, written)}: {text}" for path, text in found]
+    told = [_place_and_text(_origin(path, source, lines, written), path, text) for path, text in found]
     more = [f"{source.name}: and more; {count} in all"] if count > MOST_FAULTS else []
     return "\n".join([*told, *more])
+
+
+def _place_and_text(origin: str, path: Path, text: str) -> str:
+    """A fault behind the place it comes from, its key said once where the place names it."""
+    key = f"{'.'.join(map(str, path))}: "
+    return f"{origin}: {text.removeprefix(key) if origin.endswith(f' {key[:-2]}') else text}"
 
 
 def _origin(path: Path, source: Source, lines: dict[Path, int], written: Sequence[tuple[Path, Override]]) -> str:

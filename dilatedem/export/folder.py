@@ -102,10 +102,12 @@ def _windows(table: Table, component: str) -> Windows:
 
 def _about(component: str, history: History) -> str:
     cost = history.cost
+    ends = np.array([cost.lowest[0], cost.highest[0], cost.lowest[1], cost.highest[1]])
+    least, most, low, high = np.where(np.abs(ends) < ROUND_OFF * np.abs(ends).max(), 0.0, ends)
+    lost = f"; of the others up to {100.0 * cost.largest_loss:.2g} % is missing" if cost.kept < cost.peaks else ""
     return (
-        f"{component}: impulse off by {cost.impulse_error:.1e} of it, at no time by more than {cost.running_error:.1e}; from "
-        f"{cost.lowest[0]:.6g} to {cost.highest[0]:.6g}, of the run {cost.lowest[1]:.6g} to {cost.highest[1]:.6g}; "
-        f"{cost.kept} of {cost.peaks} peaks kept, {cost.largest_loss:.2g} of one missing at most"
+        f"{component}: impulse off by {cost.impulse_error:.1e} of itself, on the way by {cost.running_error:.1e} of it at most; "
+        f"from {least:.6g} to {most:.6g}, in the run from {low:.6g} to {high:.6g}; {cost.kept} of {cost.peaks} peaks kept{lost}"
     )
 
 

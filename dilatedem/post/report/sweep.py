@@ -166,6 +166,8 @@ def run_table(study: Study) -> dict[str, Any]:
         cells += [number(load / 1e3) for load in loads] + [number(100.0 * run.residual_over_work, 2)]
         page = run.folder / "report.html"
         link = relative(page, sweep.folder) if page.is_file() else ""
-        said = [run.message, *doubts(read_summary(run.folder / "summary.json"))]
+        untouched = [name for name in sweep.structures if "/" not in name and run.loads.get(name, {}).get("fh_max") == 0.0]
+        said = [run.message, *(f"no ice touched {name}, which counts as no load" for name in untouched if run.completed)]
+        said += doubts(read_summary(run.folder / "summary.json"))
         rows.append({"name": run.folder.name, "link": link, "cells": cells, "message": "; ".join(filter(None, said))})
     return {"head": head, "rows": rows}

@@ -106,6 +106,7 @@ def test_every_key_can_be_overridden_by_its_default(table):
         ("ice.density.x=1", 'ice.density is no list or table that "x" could belong to'),
         ("ice.initial_velocity.0=1", 'ice.initial_velocity is no list or table that "0" could belong to'),
         ("structure.pile.radus=3", 'structure.0.radus: unknown key; did you mean "radius"?'),
+        ("contact.frction=0.2", 'unknown key; did you mean "friction"?'),
     ],
 )
 def test_faults(text, expected):

@@ -147,3 +147,11 @@ def test_a_foreign_table_is_left_alone(make_run, tmp_path):
     with pytest.raises(CaseError, match="stands in the way"):
         post([folder])
     assert (folder / "statistics.csv").read_text() == "mine\n1\n" and not (folder / "report.html").exists()
+
+
+def test_a_run_whose_structure_no_ice_touched_says_so(make_run, tmp_path):
+    folder = write_sweep(tmp_path / "calm", make_run, [({}, seed, {"scale": scale}) for seed, scale in ((1, 1.0), (2, 0.0))])
+    table = (folder / "sweep.csv").read_text().replace("run1,completed,1000.0", "run1,completed,0.0")
+    (folder / "sweep.csv").write_text(table)
+    post([folder])
+    assert (folder / "report.html").read_text().count("no ice touched pile, which counts as no load") == 1
