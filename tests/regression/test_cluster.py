@@ -17,7 +17,8 @@ from dilatedem.run import loop
 
 pytest.importorskip("distributed", reason="needs the extra `cluster`")
 
-SETTINGS = ["time.duration=4.0", "output.checkpoint_interval=0.25"]
+#: a case takes some seconds where nothing else runs: what is done to it must come before it is over
+SETTINGS = ["time.duration=16.0", "output.checkpoint_interval=0.25"]
 FRICTIONS = ("0.1", "0.2", "0.3", "0.4")
 LONG_S = 240.0  # until a test gives up; machines may be busy
 
