@@ -133,7 +133,7 @@ def test_everything_is_checked_before_anything_is_written(quick, tmp_path):
     for options, expected in [
         ({}, "nothing varies: give --vary KEY=V1,V2,.. or --seeds N"),
         ({"vary": ["contact.friction=0.1,-0.2"]}, "--vary contact.friction: contact.friction = -0.2: must"),
-        ({"vary": ["contact.fricton=1"]}, "--vary contact.fricton: contact.fricton: unknown key; did you"),
+        ({"vary": ["contact.fricton=1"]}, '--vary contact.fricton: unknown key; did you mean "friction"?'),
         ({"seeds": 2, "overrides": ["ice.density=0"]}, "--set ice.density: ice.density = 0: must be greater"),
         ({"seeds": 2, "scheduler": "tcp://a", "jobs": 2}, "give either --jobs or --scheduler"),
         ({"seeds": 2, "vary": ["field.seed=1,2"]}, "give either --vary field.seed or --seeds, not both"),
