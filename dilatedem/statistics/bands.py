@@ -32,6 +32,10 @@ class Band:
     def closed(self) -> bool:
         return math.isfinite(self.low) and math.isfinite(self.high)
 
+    def is_apart(self, other: Band) -> bool:
+        """Whether no value lies in both bands: stricter than that the difference of the two is not nothing."""
+        return self.low > other.high or other.low > self.high
+
     def __truediv__(self, divisor: float) -> Band:
         """In another unit."""
         return Band(self.n, self.value / divisor, self.low / divisor, self.high / divisor)
@@ -78,6 +82,24 @@ def skewness(x: np.ndarray) -> float:
     return found if math.isfinite(found) else 0.0
 
 
+def difference(one: Iterable[float], other: Iterable[float]) -> Band:
+    """Mean of `one` less that of `other`, whose variances need not be alike: Student's band with Welch's degrees of freedom (1947).
+
+    n is that of the fewer. Skewness of both alike goes out of a difference, and Hall's transformation is left out.
+    """
+    a, b = sample(one), sample(other)
+    n = min(len(a), len(b))
+    between = float(a.mean() - b.mean()) if n else math.nan
+    if n < FEWEST:
+        return Band(n, between)
+    shares = [float(np.var(x, ddof=1)) / len(x) for x in (a, b)]
+    if sum(shares) == 0.0:
+        return Band(n, between, between, between)
+    freedom = sum(shares) ** 2 / sum(share**2 / (len(x) - 1) for share, x in zip(shares, (a, b), strict=True))
+    reach = float(stats.t.ppf(1.0 - TAIL, freedom)) * math.sqrt(sum(shares))
+    return Band(n, between, between - reach, between + reach)
+
+
 def deviation(values: Iterable[float]) -> Band:
     """Standard deviation, and its band by chi-square of as many degrees of freedom as fit the kurtosis.
 
@@ -104,18 +126,29 @@ def quantile(values: Iterable[float], share: float) -> Band:
     Of any continuous law P(r-th smallest value < quantile) is known; between two of them the ends are interpolated, so that the
     band holds at 95 % and not at the next higher chance that ranks allow (Hettmansperger & Sheather 1986 for the median, Nyblom
     1992 for others). Where the extreme value is no end on one side (a 90 % quantile needs 36 values for that), that side is
-    open, and the other end is that of a one-sided band.
+    open, and the other end is that of a one-sided band. A quantile beyond the extreme values has no value (`enough_for`).
     """
     x = sample(values)
     if not len(x):
         return Band(0, math.nan)
-    value = float(np.quantile(x, share, method="median_unbiased"))
+    told = len(x) >= enough_for(share)
+    value = float(np.quantile(x, share, method="median_unbiased")) if told else math.nan
     low, high = _low_end(x, share, TAIL), -_low_end(-x[::-1], 1.0 - share, TAIL)
     if math.isinf(high):
         low = _low_end(x, share, 2.0 * TAIL)
     elif math.isinf(low):
         high = -_low_end(-x[::-1], 1.0 - share, 2.0 * TAIL)
     return Band(len(x), value, low, high)
+
+
+def enough_for(share: float) -> int:
+    """From how many values on a quantile lies between the least and the largest: the median from 1, 90 % from 7, 95 % from 13.
+
+    The k-th of n values stands for a share of (k - 1/3)/(n + 1/3) (Hyndman & Fan 1996, median-unbiased). Beyond the n-th any
+    estimate would be the largest value, whatever share is asked for.
+    """
+    beyond = min(share, 1.0 - share)
+    return max(math.ceil((2.0 - beyond) / (3.0 * beyond) - 1e-9), 1)
 
 
 def _low_end(x: np.ndarray, share: float, tail: float) -> float:

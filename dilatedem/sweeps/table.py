@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from dilatedem.case.grid import SEED_KEY
 from dilatedem.errors import CaseError
 from dilatedem.files.atomic import write_text
 from dilatedem.output import folder
@@ -16,6 +17,7 @@ from dilatedem.results.files import read_summary
 from dilatedem.results.sweep import is_number, read_rows
 from dilatedem.results.tables import read_table, split_by_structure
 from dilatedem.sweeps.plan import Job
+from dilatedem.sweeps.together import Together
 
 TABLE = "sweep.csv"
 
@@ -36,13 +38,14 @@ class Table:
     def __init__(self, todo: Sequence[Job], out: Path):
         self._todo, self._path = todo, out / TABLE
         self._results: dict[str, dict[str, Any]] = {}  # by the run's folder
+        self._together = Together([_setting(job) for job in todo])
         if self._path.exists():
             self._take_over(*read_rows(out))
 
     def _take_over(self, header: list[str], rows: list[dict[str, str]]) -> None:
         """What an earlier sweep wrote of runs that were completed then; an earlier version wrote less."""
-        if "simulated_s" in header:
-            names = [name for name in header[header.index("status") + 1 :] if name != "message"]
+        if {"simulated_s", "residual_over_work"} <= set(header):
+            names = header[header.index("status") + 1 : header.index("residual_over_work") + 1]
             known = {job.folder.name for job in self._todo if job.status == "completed"}
             done = [row for row in rows if row["run"] in known and row["status"] == "completed"]
             self._results = {row["run"]: {name: row[name] for name in names} for row in done}
@@ -54,6 +57,7 @@ class Table:
         relative to that of the table.
         """
         rows = [self._row(job) for job in self._todo]
+        rows = [row | columns for row, columns in zip(rows, self._together.columns(rows), strict=True)]
         columns = list(dict.fromkeys(name for row in rows for name in row))
         columns.remove("message")
         text = io.StringIO(newline="")
@@ -71,6 +75,11 @@ class Table:
         if job.status != "waiting" and name not in self._results:
             self._results[name] = _results(job, _summary(job), _spread(job))
         return row | self._results.get(name, _results(job, {}, {})) | {"message": job.message}
+
+
+def _setting(job: Job) -> str:
+    """What the runs of an ensemble share: the values of the keys that vary, the seed apart."""
+    return repr([(override.key, override.value) for override in job.point if override.key != SEED_KEY])
 
 
 def _results(job: Job, summary: dict[str, Any], spread: dict[str, dict[str, float]]) -> dict[str, Any]:

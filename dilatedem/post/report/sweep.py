@@ -17,7 +17,7 @@ from dilatedem.post.labels import axis_label, number, show
 from dilatedem.post.report.page import inline, render
 from dilatedem.results.doubts import doubts
 from dilatedem.results.files import read_summary
-from dilatedem.statistics import Band, needed
+from dilatedem.statistics import Band, enough_for, needed
 
 #: statistics that the tables show, with their heads
 SHOWN = {
@@ -40,6 +40,7 @@ def write_sweep_report(study: Study, laws: Laws, figures: list[tuple[Drawing, st
         keys=[(key, head_words(study, key)) for key in sweep.keys],
         figures=inline(figures),
         looked_at=part_words(study),
+        few=few_words(study),
         statistics=[table for structure in sweep.structures for table in statistics_tables(study, structure)],
         enough=enough_words(study),
         rare=[table for structure in sweep.structures if (table := rare_table(study, structure, laws))["rows"]],
@@ -58,6 +59,15 @@ def part_words(study: Study) -> str:
     if study.left_out:
         said += f". Left out, as they end before: {', '.join(study.left_out)}"
     return f"{said}."
+
+
+def few_words(study: Study) -> str:
+    """What is left out of the tables for want of runs, nothing where nothing is."""
+    least = enough_for(0.9)
+    counts = [len(ensemble.members) for ensemble in study.ensembles]
+    if min(counts, default=least) >= least:
+        return ""
+    return f"What 90 % of the runs stay below is told from {least} runs on: of fewer it would be no more than the largest."
 
 
 def statistics_tables(study: Study, structure: str) -> list[dict[str, Any]]:
@@ -102,12 +112,12 @@ def statistics_cells(ensemble: Ensemble, structure: str, quantity: str) -> list[
 
 
 def band_words(band: Band) -> str:
-    """An estimate and, behind it, its band as far as it is known."""
+    """An estimate and, behind it, its band as far as it is known; the band alone where there is no estimate."""
     value = number(band.value, 3)
     if band.closed:
         return f"{value} ({number(band.low, 3)} to {number(band.high, 3)})"
     if math.isfinite(band.low) and band.low != 0.0:
-        return f"{value} (over {number(band.low, 3)})"
+        return f"{value} (over {number(band.low, 3)})" if math.isfinite(band.value) else f"over {number(band.low, 3)}"
     return f"{value} (below {number(band.high, 3)})" if math.isfinite(band.high) else value
 
 

@@ -155,3 +155,14 @@ def test_a_run_whose_structure_no_ice_touched_says_so(make_run, tmp_path):
     (folder / "sweep.csv").write_text(table)
     post([folder])
     assert (folder / "report.html").read_text().count("no ice touched pile, which counts as no load") == 1
+
+
+def test_a_percentile_that_few_runs_cannot_tell_is_not_their_largest(make_run, tmp_path):
+    folder = write_sweep(tmp_path / "sweep", make_run, [({}, seed, {"scale": 0.1 * seed, "duration": 1.0}) for seed in range(1, 6)])
+    post([folder])
+    highest = study(read_sweep(folder)).ensembles[0].sample("pile", "horizontal_highest_N")
+    rows = {row["statistic"]: row for row in read_statistics(folder) if row["quantity"] == "horizontal_highest_N"}
+    assert rows["percentile_90"]["value"] == "" and rows["percentile_90"]["n"] == "5"
+    assert float(rows["percentile_90"]["low"]) == pytest.approx(quantile(highest, 0.9).low, rel=1e-6)
+    page = (folder / "report.html").read_text()
+    assert f"over {quantile(highest, 0.9).low / 1e3:.3g}" in page and "told from 7 runs on" in page

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from dilatedem.statistics import Band, deviation, growth, mean, needed, quantile
+from dilatedem.statistics import Band, deviation, difference, enough_for, growth, mean, needed, quantile
 from dilatedem.statistics.bands import skewness
 
 ENSEMBLES = 400
@@ -58,6 +58,28 @@ def test_one_value_far_out_does_not_fold_the_band_of_a_mean():
     assert mean(five).high < five.mean() + 2.2 * five.std(ddof=1)  # Student's: 1.24
 
 
+def test_difference_of_means_whose_variances_are_alike():
+    """Of as many values and one variance it is Student's of 2 (n - 1) degrees of freedom: t(8) = 2.306 (Welch 1947)."""
+    one = np.array([1.0, 2.0, 3.0, 4.0, 5.0])
+    reach = 2.30600 * math.sqrt(2.5 * 2.0 / 5.0)
+    found = difference(one + 10.0, one)
+    assert (found.low, found.value, found.high) == pytest.approx((10.0 - reach, 10.0, 10.0 + reach), rel=1e-5)
+    assert difference([2.0] * 5, [1.0] * 6) == Band(5, 1.0, 1.0, 1.0)
+    assert difference([1.0, 2.0], [1.0, 1.5]) == Band(2, 0.25)
+
+
+def test_differences_of_unlike_variances_hold_in_95_percent():
+    random = np.random.default_rng(5)
+    bands = [difference(random.normal(2.0, 1.0, 8), random.normal(1.0, 4.0, 20)) for _ in range(ENSEMBLES)]
+    assert np.mean([band.low <= 1.0 <= band.high for band in bands]) == pytest.approx(0.95, abs=ERROR)
+
+
+def test_bands_that_touch_are_not_apart():
+    assert not Band(9, 1.0, 0.5, 1.5).is_apart(Band(9, 2.0, 1.5, 2.5))
+    assert Band(9, 1.0, 0.5, 1.5).is_apart(Band(9, 2.0, 1.51, 2.5)) and Band(9, 2.0, 1.51, 2.5).is_apart(Band(9, 1.0, 0.5, 1.5))
+    assert not Band(2, 1.0).is_apart(Band(2, 5.0))  # nothing is known
+
+
 def test_ends_of_a_median_are_ranks_where_these_have_the_chance():
     """Of 10 values the 2nd and the 9th hold the median with 97.9 %, the 3rd and 8th with 89.1 %: the ends lie in between."""
     found = quantile(np.arange(1.0, 11.0), 0.5)
@@ -70,6 +92,18 @@ def test_a_90_percent_quantile_has_an_upper_end_from_36_values_on(count, closed)
     found = quantile(np.arange(float(count)), 0.9)  # 0.9^36 = 0.0225, 0.9^35 = 0.0250...
     assert (0.9**count < 0.025) == closed == found.closed
     assert math.isfinite(found.low)
+
+
+@pytest.mark.parametrize(("share", "least"), [(0.5, 1), (0.9, 7), (0.1, 7), (0.95, 13), (0.99, 67)])
+def test_a_quantile_beyond_the_extreme_values_has_no_value(share, least):
+    """Where the largest of few values would pass for it; that it is no less than some of them is known all the same."""
+    values = np.arange(float(least)) + 1.0
+    assert enough_for(share) == least
+    assert 1.0 <= quantile(values, share).value <= least
+    if least > 1:
+        fewer = quantile(values[:-1], share)
+        assert math.isnan(fewer.value) and fewer.n == least - 1
+        assert math.isfinite(fewer.low if share > 0.5 else fewer.high)
 
 
 def test_too_few_or_equal_values():

@@ -5,6 +5,7 @@ The simulation is a stand-in that gets its case as a process does and writes a s
 
 import csv
 import json
+import math
 import os
 import signal
 import subprocess
@@ -12,6 +13,7 @@ import sys
 import time
 import tomllib
 from dataclasses import replace
+from itertools import product
 from pathlib import Path
 
 import pytest
@@ -22,6 +24,7 @@ from dilatedem.errors import CaseError, SimulationStopped
 from dilatedem.files.lock import Lock
 from dilatedem.processes.children import Answer
 from dilatedem.results.load import load as load_results
+from dilatedem.statistics import mean, quantile
 from dilatedem.sweeps import earlier
 from dilatedem.sweeps.orders import Order, order_of
 from dilatedem.sweeps.plan import plan
@@ -29,6 +32,11 @@ from dilatedem.sweeps.sweep import sweep
 from tests.regression.folders import without_work
 
 PILE = Path(__file__).parents[3] / "cases" / "pile.toml"
+#: columns on all runs of a setting
+TOGETHER = [
+    f"pile_{load}_{what}{end}_N"
+    for load, what, end in product(("fh_max", "along_mean"), ("mean", "p50", "p90"), ("", "_low", "_high"))
+]
 
 
 def simulate(order: Order, tell) -> Answer:
@@ -87,7 +95,7 @@ def test_grid_of_completed_cases(quick, tmp_path, capsys):
         "pile_fy_max_N", "pile_fy_min_N", "pile_fh_max_N", "pile_along_max_N", "pile_along_mean_N", "pile_across_max_N",
         "pile_across_min_N", "pile_mh_max_Nm", "pile_mz_max_Nm", "pile_mz_min_Nm", "pile_fx_min_N", "pile_fy_mean_N",
         "pile_along_min_N", "pile_across_mean_N", "pile_fh_mean_N", "pile_fh_p5_N", "pile_fh_p50_N", "pile_fh_p90_N",
-        "pile_fh_p95_N", "pile_fh_p99_N", "residual_over_work", "message",
+        "pile_fh_p95_N", "pile_fh_p99_N", "residual_over_work", "runs", *TOGETHER, "message",
     ]
     assert {row["status"] for row in found} == {"completed"}
     last = found[-1]
@@ -178,6 +186,36 @@ def test_columns_that_hold_for_any_direction_of_the_current(quick, tmp_path):
     found = {name.removeprefix("pile_"): float(cell) for name, cell in row.items() if name.startswith("pile_fh_") and cell}
     percentiles = {f"fh_p{share}_N": 90.0 * share for share in (5, 50, 90, 95, 99)}  # between 0 and 9000 N
     assert found == pytest.approx({"fh_mean_N": 2500.0, **percentiles})
+
+
+def test_columns_on_all_runs_of_a_setting(quick, tmp_path, monkeypatch):
+    """A row a run; what the seeds say together stands in each row of their setting, and nowhere without other seeds."""
+
+    def simulate_scattered(order: Order, tell) -> Answer:
+        answer, case = simulate(order, tell), tomllib.loads(order.case)
+        summary = json.loads((path := Path(order.out) / "summary.json").read_text())
+        force = 1e3 * case["field"]["seed"] + 1e6 * case["contact"]["friction"]
+        summary["loads"]["pile"] |= {"fh_max_N": force, "along_mean_N": 5.0}
+        path.write_text(json.dumps(summary))
+        return answer
+
+    without_work(monkeypatch, simulate_scattered)
+    sweep(PILE, vary=["contact.friction=0.1,0.2"], seeds=8, out=tmp_path)
+    table = load_results(tmp_path).table
+    for friction, group in table.groupby("contact.friction"):
+        assert set(group.runs) == {8} and len(group) == 8
+        force = group.pile_fh_max_N.to_numpy()
+        for what, band in (("mean", mean(force)), ("p50", quantile(force, 0.5)), ("p90", quantile(force, 0.9))):
+            found = [set(group[f"pile_fh_max_{what}{end}_N"].dropna()) for end in ("", "_low", "_high")]
+            assert found == [{end} if math.isfinite(end) else set() for end in (band.value, band.low, band.high)], friction
+        assert set(group.pile_along_mean_mean_high_N) == {5.0}
+    again = (tmp_path / "sweep.csv").read_text()
+    (tmp_path / table.run[15] / "summary.json").write_text('{"status": "running"}')
+    (tmp_path / table.run[15] / "restart.h5").touch()
+    sweep(PILE, vary=["contact.friction=0.1,0.2"], seeds=8, out=tmp_path)  # from the table of before, but for the last run
+    assert (tmp_path / "sweep.csv").read_text() == again
+    sweep(PILE, vary=["contact.friction=0.1,0.2"], out=tmp_path / "without")
+    assert not {"runs", *TOGETHER} & set(rows(tmp_path / "without")[0])
 
 
 def test_a_folder_with_runs_is_not_overwritten(quick, tmp_path):
