@@ -18,6 +18,8 @@ RESAMPLES = 4000
 STEPS = 12
 #: with fewer values no law is fitted
 FEWEST = 5
+#: scale of values that are all the same, so that nothing is divided by none
+NO_SCALE = 1e-100
 
 
 @dataclass(frozen=True)
@@ -96,7 +98,7 @@ def fit_rows(rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     least = rows.min(axis=1, keepdims=True)
     x = rows - least
     average = x.mean(axis=1, keepdims=True)
-    scale = np.sqrt(6.0) / math.pi * x.std(axis=1, keepdims=True)
+    scale = np.maximum(np.sqrt(6.0) / math.pi * x.std(axis=1, keepdims=True), NO_SCALE)
     for _ in range(STEPS):
         weight = np.exp(-x / scale)
         total = weight.sum(axis=1, keepdims=True)

@@ -55,7 +55,7 @@ def test_bands_hold_the_mean_as_often_as_they_say():
 
 def test_gumbels_law_is_scipys():
     samples = stats.gumbel_r.rvs(100.0, 30.0, size=(5, 10), random_state=2)
-    location, scale = statistics.gumbel_rows(samples)
+    location, scale = statistics.fit_rows(samples)
     for row, values in enumerate(samples):
         assert (location[row], scale[row]) == pytest.approx(stats.gumbel_r.fit(values), rel=1e-4)
     law = statistics.gumbel(samples[0])

@@ -1,41 +1,14 @@
-"""What the study of managed ice makes of its runs: bands of a mean over fields, pieces of a way, and floes of one size.
-
-The mean of n normal values is within t(n - 1) s/sqrt(n) of the true one in 95 of 100 cases (Student 1908); of two values +-1 the
-band is 12.706 s/sqrt(2), s = sqrt(2). For the difference of two means see Welch (1947).
-"""
+"""What the study of managed ice makes of its runs: pieces of a way, what is noted of them, and floes of one size."""
 
 import numpy as np
 import pytest
 import shapely
 
 from validation.managed_ice import runs
-from validation.managed_ice.bands import Band, band, difference
 from validation.managed_ice.fields import SHAPES, drawn
 from validation.managed_ice.runs import Found, Point, measured
 
 TANK = (30.0, 24.0)
-
-
-def test_band_of_two_values():
-    assert band(np.array([-1.0, 1.0])) == pytest.approx((0.0, 12.7062), rel=1e-5)
-
-
-def test_bands_hold_the_true_mean_as_often_as_they_say():
-    draws = np.random.default_rng(3).normal(2.0, 0.7, (4000, 10))
-    holds = [abs(told.mean - 2.0) <= told.half for told in map(band, draws)]
-    assert np.mean(holds) == pytest.approx(0.95, abs=0.01)  # three standard errors
-
-
-def test_difference_of_means_whose_variances_are_alike():
-    """Of as many values and one variance it is Student's of 2 (n - 1) degrees of freedom: t(8) = 2.306."""
-    one = np.array([1.0, 2.0, 3.0, 4.0, 5.0])
-    assert difference(one + 10.0, one) == pytest.approx((10.0, 2.30600 * np.sqrt(2.5 * 2.0 / 5.0)), rel=1e-5)
-    assert difference(np.full(3, 2.0), np.full(3, 1.0)) == (1.0, 0.0)
-
-
-def test_bands_that_touch_are_not_apart():
-    assert not Band(1.0, 0.5).is_apart(Band(2.0, 0.5))
-    assert Band(1.0, 0.5).is_apart(Band(2.0, 0.49))
 
 
 def test_loads_of_a_way():

@@ -10,6 +10,8 @@ from functools import cache
 import numpy as np
 from scipy import stats
 
+from dilatedem.statistics.gumbel import fit_rows, plotting_places
+
 CONFIDENCE = 0.95
 #: the chance, over all tests of the page together, of one effect that is none
 LEVEL = 0.05
@@ -20,8 +22,6 @@ FEWEST = 5
 FEWEST_SCATTER = 8
 #: share of fields whose highest load stays below the quantile that is quoted: one of ten exceeds it
 QUOTED = 0.9
-#: halvings of the interval that Gumbel's scale is searched in: down to round-off
-HALVINGS = 50
 
 
 @dataclass(frozen=True)
@@ -93,28 +93,8 @@ def percentiles(estimates: np.ndarray, count: int) -> tuple[float, float]:
     return float(low), float(high)
 
 
-def gumbel_rows(samples: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Location and scale of most likelihood, a pair for every row of samples (rows, n); scipy's, for many rows at once.
-
-    The scale b solves b = mean - sum(x exp(-x/b))/sum(exp(-x/b)). What is left over rises with b and has one zero, between 0
-    and the mean's distance from the smallest value.
-    """
-    least = samples.min(axis=1, keepdims=True)
-    above = samples - least
-    mean = above.mean(axis=1, keepdims=True)
-    low, high = np.zeros_like(mean), mean.copy()
-    for _ in range(HALVINGS):
-        middle = np.maximum(0.5 * (low + high), np.finfo(float).tiny)
-        weight = np.exp(-above / middle)
-        beyond = middle - mean + (above * weight).sum(axis=1, keepdims=True) / weight.sum(axis=1, keepdims=True) > 0.0
-        low, high = np.where(beyond, low, middle), np.where(beyond, middle, high)
-    scale = np.maximum(high, np.finfo(float).tiny)
-    location = least - scale * np.log(np.exp(-above / scale).mean(axis=1, keepdims=True))
-    return location[:, 0], scale[:, 0]
-
-
 def location_of_rows(samples: np.ndarray) -> np.ndarray:
-    return gumbel_rows(samples)[0]
+    return fit_rows(samples)[0]
 
 
 def gumbel(values: Iterable[float]) -> Gumbel:
@@ -129,13 +109,13 @@ def gumbel(values: Iterable[float]) -> Gumbel:
     bands = [
         Band(len(sample), float(value), *percentiles(rows, len(sample))) for value, rows in zip(estimates, resampled, strict=True)
     ]
-    places = (np.arange(len(sample)) + 0.56) / (len(sample) + 0.12)  # Gringorten's, for this law
+    places = plotting_places(len(sample))
     return Gumbel(*bands, float(np.corrcoef(np.sort(sample), stats.gumbel_r.ppf(places))[0, 1]))
 
 
 def quantities(samples: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Location, scale and the quantile QUOTED of every row."""
-    location, scale = gumbel_rows(samples)
+    location, scale = fit_rows(samples)
     return location, scale, location - scale * math.log(-math.log(QUOTED))
 
 

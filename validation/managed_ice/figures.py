@@ -12,7 +12,7 @@ from matplotlib.collections import PolyCollection
 from matplotlib.patches import Rectangle
 
 from dilatedem.results.load import load
-from validation.managed_ice.bands import band
+from dilatedem.statistics import mean
 from validation.managed_ice.fields import SHAPES
 from validation.managed_ice.runs import PIECE, TO, Found, Point
 
@@ -57,10 +57,10 @@ def draw_histories(runs: Runs, concentrations: tuple[float, ...]) -> None:
         for shape, colour in COLOURS.items():
             chosen = [found for point, found in runs.items() if (point.shape, point.concentration) == (shape, concentration)]
             told = np.array([found.history for found in chosen])
-            bands = [band(MEGA * values) for values in told.T]
+            bands = [mean(MEGA * values) for values in told.T]
             way = PIECE * (np.arange(len(bands)) + 0.5)
-            low, high = np.array([each.ends for each in bands]).T
-            axes.plot(way, [each.mean for each in bands], color=colour, label=f"{shape}, mean of {len(told)} fields")
+            axes.plot(way, [each.value for each in bands], color=colour, label=f"{shape}, mean of {len(told)} fields")
+            low, high = [each.low for each in bands], [each.high for each in bands]
             axes.fill_between(way, low, high, color=colour, alpha=0.25, linewidth=0.0)
         axes.set(xlabel="way of the wall (m)", title=f"concentration {concentration:g}", xlim=(0.0, TO))
         axes.grid(alpha=0.3)
@@ -78,10 +78,12 @@ def draw_fields(runs: Runs, concentrations: tuple[float, ...]) -> None:
             for (shape, colour), aside in zip(COLOURS.items(), (-0.17, 0.17), strict=True):
                 chosen = [found for point, found in runs.items() if (point.shape, point.concentration) == (shape, concentration)]
                 values = MEGA * np.array([getattr(found, what) for found in chosen])
-                told = band(values)
+                told = mean(values)
                 axes.plot(np.full(len(values), place + aside - 0.06), values, "o", color=colour, alpha=0.45, markersize=4)
                 named = shape if place == 0 else None
-                axes.errorbar(place + aside + 0.06, told.mean, told.half, color=colour, marker="_", capsize=4, lw=1.8, label=named)
+                reach = [[told.value - told.low], [told.high - told.value]]
+                look = {"color": colour, "marker": "_", "capsize": 4, "lw": 1.8, "label": named}
+                axes.errorbar(place + aside + 0.06, told.value, reach, **look)
         axes.set_xticks(range(len(concentrations)), [f"{each:g}" for each in concentrations])
         axes.set(xlabel="concentration", ylabel=f"{label} (MN)", xlim=(-0.5, len(concentrations) - 0.5), ylim=(0.0, None))
         axes.grid(axis="y", alpha=0.3)
@@ -109,5 +111,5 @@ def draw_trends(runs: Runs, series: dict[str, tuple[str, list[Point]]]) -> None:
 def _draw_series(axes: Axes, key: str, points: list[Point], runs: Runs, what: str, colour: str) -> None:
     levels = sorted({getattr(point, key) for point in points})
     some = [MEGA * np.array([getattr(runs[p], what) for p in points if getattr(p, key) == level]) for level in levels]
-    mean, low, high = (np.array([of(each) for each in some]) for of in (np.mean, np.min, np.max))
-    axes.errorbar(levels, mean, [mean - low, high - mean], color=colour, marker="o", markersize=4, capsize=3)
+    middle, low, high = (np.array([of(each) for each in some]) for of in (np.mean, np.min, np.max))
+    axes.errorbar(levels, middle, [middle - low, high - middle], color=colour, marker="o", markersize=4, capsize=3)

@@ -14,8 +14,8 @@ from pathlib import Path
 
 import numpy as np
 
+from dilatedem.statistics import Band, difference, mean
 from validation.loads.runner import write_between
-from validation.managed_ice.bands import Band, band, difference
 from validation.managed_ice.fields import SHAPES
 from validation.managed_ice.figures import MEGA, Runs, draw_fields, draw_histories, draw_plans, draw_trends
 from validation.managed_ice.runs import FROM, HERE, TO, Point, found, recorded
@@ -69,12 +69,12 @@ def comparison(runs: Runs) -> list[str]:
         told = {}
         for what, named in FIGURES.items():
             square, irregular = (MEGA * values(runs, concentration, shape, what) for shape in SHAPES)
-            one, other, between = band(square), band(irregular), difference(square, irregular)
+            one, other, between = mean(square), mean(irregular), difference(square, irregular)
             told[named] = one, other, between
             apart = "apart" if one.is_apart(other) else "overlap"
             lines.append(f"| {concentration:g} | {named} | {said(one)} | {said(other)} | {said(between, '+')} | {apart} |")
         found_of_each = "; ".join(verdict(named, *each) for named, each in told.items())
-        one, other = (said(band(values(runs, concentration, shape, "pushed")), digits=0) for shape in SHAPES)
+        one, other = (said(mean(values(runs, concentration, shape, "pushed")), digits=0) for shape in SHAPES)
         pushed = f"after {TO:g} m {one} square floes go along with the wall, and {other} irregular ones"
         verdicts.append(f"- **Concentration {concentration:g}**, {len(square)} fields: {found_of_each}; {pushed}.")
     crushed, residual = ([getattr(runs[point], what) for point in there(runs, compared())] for what in ("crushed", "residual"))
@@ -84,16 +84,16 @@ def comparison(runs: Runs) -> list[str]:
 
 
 def said(told: Band, sign: str = "", digits: int = 3) -> str:
-    return f"{told.mean:{sign}.{digits}f} ± {told.half:.{digits}f}"
+    return f"{told.value:{sign}.{digits}f} ({told.low:{sign}.{digits}f} to {told.high:{sign}.{digits}f})"
 
 
 def verdict(named: str, square: Band, irregular: Band, between: Band) -> str:
     """What two bands say, and whether that was published."""
-    told = f"{named} of square floes {square.mean / irregular.mean:.2f} times that of irregular ones"
-    if abs(between.mean) <= between.half:
+    told = f"{named} of square floes {square.value / irregular.value:.2f} times that of irregular ones"
+    if between.low <= 0.0 <= between.high:
         return f"{told}, which may be chance"
     bands = "**bands apart**" if square.is_apart(irregular) else "more than chance (95 %), though bands overlap"
-    published = "" if named not in PUBLISHED else ", as published" if between.mean > 0.0 else ", **against what was published**"
+    published = "" if named not in PUBLISHED else ", as published" if between.value > 0.0 else ", **against what was published**"
     return f"{told}, {bands}{published}"
 
 
@@ -123,7 +123,7 @@ def main(root: Path, as_is: bool) -> None:
     draw_fields(main_runs, CONCENTRATIONS)
     series = {key: (label, there(runs, points)) for key, (label, points) in series.items()}
     draw_trends(runs, series)
-    about = f"Loads of the way from {FROM:g} to {TO:g} m; means over fields, and half of their 95 % bands (Student, Welch)."
+    about = f"Loads of the way from {FROM:g} to {TO:g} m; means over fields and their 95 % bands (Hall, Welch)."
     write_between(PAGE, "<!-- shapes: written by validation/managed_ice/run.py -->", "<!-- end of shapes -->",
                   "\n".join([about, "", *comparison(runs)]))  # fmt: skip
     write_between(PAGE, "<!-- trends: written by validation/managed_ice/run.py -->", "<!-- end of trends -->",

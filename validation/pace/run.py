@@ -26,8 +26,8 @@ from dilatedem.files.atomic import write_text
 from dilatedem.results.load import load
 from dilatedem.run import pace
 from dilatedem.run.loop import run
+from dilatedem.statistics import Band, difference, mean
 from validation.loads.runner import write_between
-from validation.managed_ice.bands import Band, band, difference
 
 HERE = Path(__file__).parent
 RECORD, PAGE, FIGURE = HERE / "runs.csv", HERE / "README.md", HERE / "pace.png"
@@ -106,7 +106,7 @@ def rows(known: dict) -> list[str]:
         "| ---: | ---: | ---: | ---: | ---: | ---: | ---: |",
     ]
     for span in SPANS:
-        cells = [said(band(scale * of_span(known, span, what))) for what, scale in (
+        cells = [said(mean(scale * of_span(known, span, what))) for what, scale in (
             ("mean", 1e-3), ("peaks", 1e-3), ("highest", 1e-3), ("events", 1.0),
         )]  # fmt: skip
         cost = np.median(of_span(known, span, "processor") / of_span(known, OWN, "processor"))
@@ -116,7 +116,7 @@ def rows(known: dict) -> list[str]:
 
 
 def said(told: Band) -> str:
-    return f"{told.mean:.3g} ± {told.half:.2g}"
+    return f"{told.value:.3g} ({told.low:.3g} to {told.high:.3g})"
 
 
 def verdict(known: dict) -> list[str]:
@@ -124,8 +124,9 @@ def verdict(known: dict) -> list[str]:
     shortest, differing = SPANS[0], []
     for span, (what, named) in product(SPANS[1:], {"mean": "mean", "peaks": "mean peak", "highest": "highest"}.items()):
         between = difference(of_span(known, span, what), of_span(known, shortest, what))
-        if abs(between.mean) > between.half:
-            differing.append(f"{named} at {1e3 * span * STEP:g} ms ({1e-3 * between.mean:+.2g} ± {1e-3 * between.half:.2g} kN)")
+        if not between.low <= 0.0 <= between.high:
+            low, value, high = (1e-3 * each for each in (between.low, between.value, between.high))
+            differing.append(f"{named} at {1e3 * span * STEP:g} ms ({value:+.2g}, {low:+.2g} to {high:+.2g} kN)")
     cost = {span: float(np.median(of_span(known, span, "processor") / of_span(known, OWN, "processor"))) for span in SPANS}
     tested = 3 * (len(SPANS) - 1)
     told = "; ".join(differing) if differing else "none"
@@ -147,8 +148,9 @@ def draw(known: dict) -> None:
         values = [scale * of_span(known, span, what) for span in SPANS]
         for way, some in zip(ways, values, strict=True):
             axes.plot(np.full(len(some), way), some, ".", color="#0072B2", alpha=0.4)
-        bands = [band(some) for some in values]
-        axes.errorbar(ways, [each.mean for each in bands], [each.half for each in bands], color="#0072B2", capsize=3, marker="_")
+        bands = [mean(some) for some in values]
+        reach = np.array([[each.value - each.low, each.high - each.value] for each in bands]).T
+        axes.errorbar(ways, [each.value for each in bands], reach, color="#0072B2", capsize=3, marker="_")
         axes.axvline(1e3 * OWN * STEP, color="#D55E00", linewidth=1.0, linestyle="--")
         axes.set(xscale="log", xlabel="longest step of idle floes (ms)", ylabel=label, ylim=(0.0, None))
         axes.set_xticks(ways, [f"{way:g}" for way in ways])
