@@ -24,7 +24,8 @@ CHECKPOINT = "restart.h5"
 BEFORE_END = "before_end.h5"
 STOPPED = "stopped.h5"
 SUMMARY = "summary.json"
-REPORT = "report.html"  # this one and the figures are made by `post`, and removed with the run that they show
+REPORT = "report.html"  # this one, the figures and the table are made by `post`, and removed with the run that they show
+STATISTICS = "statistics.csv"
 FIGURES = "figures"
 EXPORT = "export"  # likewise, by `export`
 
@@ -32,12 +33,12 @@ RUN_MARKS = (CASE, FORCES, CHECKPOINT, SUMMARY)  # any one of them, and the fold
 #: files that a run replaces and removes, case.toml last: as long as it is there, the folder holds a run that may be replaced
 FILES = (
     CHECKPOINT, BEFORE_END, STOPPED, SUMMARY, RUN_ARCHIVE, FORCES, HITS, ENERGY, BODIES, ICE_COLLECTION, STRUCTURES,
-    STRUCTURE_MOTION, STRUCTURE_COLLECTION, REPORT, CASE,
+    STRUCTURE_MOTION, STRUCTURE_COLLECTION, REPORT, STATISTICS, CASE,
 )  # fmt: skip
 #: of what lies in folders, the same
 PARTS = {
     SNAPSHOTS: re.compile(r"(ice|structures)_\d{6,}\.vtu(\.tmp)?"),
-    FIGURES: re.compile(r"(field|plan|speed|energy|motion_.+|force_.+|peak_.+|load_.+|hit_.+)\.(png|svg|pdf)(\.tmp)?"),
+    FIGURES: re.compile(r"(field|plan|speed|energy|extremes_.+|motion_.+|force_.+|peak_.+|load_.+|hit_.+)\.(png|svg|pdf)(\.tmp)?"),
     EXPORT: re.compile(r".+_(loads\.(csv|dat|inp)|heights\.csv)(\.tmp)?"),
 }
 

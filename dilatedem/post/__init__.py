@@ -14,7 +14,7 @@ __all__ = ["info", "post"]
 
 def post(
     run_dirs: Sequence[Path], *, start: str | None = None, end: str | None = None, threshold: float | None = None,
-    gap: float | None = None, **signed: str,
+    gap: float | None = None, block: str | None = None, **signed: str,
 ) -> list[Path]:  # fmt: skip
     """Write figures/, report.html and the load statistics (key `post` of summary.json, statistics.csv of a sweep) of each folder.
 
@@ -22,6 +22,7 @@ def post(
         given together are also compared, in a folder `comparison` beside them.
     start, end: of the part of each run that sweeps and comparisons look at: a drift of the ice, as "5m", or a time, as "10s".
     threshold [N], gap [s]: what counts as a hit there.
+    block: cuts runs, single ones too, into pieces of a drift, as "180m", or a time, as "600s", which stand for runs then.
     signed: for the front page of reports of runs: project, document, prepared_by, checked_by, approved_by; lines to be filled in
         by hand unless given.
     Returns the paths written, in the order written. Raises CaseError for a folder that is neither.
@@ -29,6 +30,7 @@ def post(
     import math
 
     from dilatedem.errors import CaseError
+    from dilatedem.post.ensembles.blocks import read_block
     from dilatedem.post.ensembles.part import read_part
     from dilatedem.post.ensembles.study import Choice
     from dilatedem.post.folders import post_folders  # matplotlib and the report, only when they are wanted
@@ -37,7 +39,8 @@ def post(
     for option, value in (("--threshold", threshold), ("--gap", gap)):
         if value is not None and not 0.0 <= value < math.inf:
             raise CaseError(f"{option} {value}: must be a number of at least 0")
-    return post_folders([Path(folder) for folder in run_dirs], Choice(read_part(start, end), threshold, gap), Signed(**signed))
+    choice = Choice(read_part(start, end), threshold, gap, read_block(block))
+    return post_folders([Path(folder) for folder in run_dirs], choice, Signed(**signed))
 
 
 def info(run_dir: Path) -> str:

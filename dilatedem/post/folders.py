@@ -14,7 +14,7 @@ from dilatedem.files.atomic import write_text
 from dilatedem.files.faults import told_as
 from dilatedem.post.ensembles.laws import extremes
 from dilatedem.post.ensembles.study import AS_IT_SUITS, Choice, Study, study
-from dilatedem.post.ensembles.sweeps import Sweep, compare_runs, read_sweep, write_table
+from dilatedem.post.ensembles.sweeps import Sweep, compare_runs, read_sweep, run_alone, write_table
 from dilatedem.post.ensembles.table import Laws, write_statistics
 from dilatedem.post.figures import canvas
 from dilatedem.post.figures.canvas import Drawing
@@ -31,6 +31,7 @@ from dilatedem.post.figures.sweep import sweep_figure
 from dilatedem.post.harm import COMPARISON_TABLE, refuse_harm, refuse_harm_beside
 from dilatedem.post.loads import angular_statistics, event_statistics, hit_statistics, hit_threshold, load_statistics
 from dilatedem.post.read import RunFolder, open_run
+from dilatedem.post.report.ensembles import ensemble_tables
 from dilatedem.post.report.front import Signed
 from dilatedem.post.report.page import write_run_report
 from dilatedem.post.report.sweep import write_sweep_report
@@ -51,8 +52,8 @@ def post_folders(folders: list[Path], choice: Choice = AS_IT_SUITS, signed: Sign
     folders = [folder for folder in dict.fromkeys(folders) if not (folder / COMPARISON_TABLE).is_file()]
     runs = [folder for folder in folders if is_run(folder) and not is_sweep(folder)]
     beside = common_folder(runs) / "comparison" if len(runs) > 1 else None
-    if choice.asked and not beside and len(runs) == len(folders):
-        raise CaseError(f"{folders[0]}: a single run; a part, a threshold and a gap are for sweeps, and for runs side by side")
+    if choice.asked and not choice.blocks and not beside and len(runs) == len(folders):
+        raise CaseError(f"{folders[0]}: a single run; a part, a threshold and a gap are for sweeps, runs side by side, and --block")
     with told_as(CaseError):
         for folder in folders:
             refuse_harm(folder)
@@ -71,7 +72,7 @@ def _post_all(folders: list[Path], beside: Path | None, choice: Choice, signed: 
             written += post_sweep(read_sweep(folder), choice)
         else:
             run = open_run(folder)
-            written += post_run(run, signed)
+            written += post_run(run, signed, choice)
             runs.append(run)
     if beside:
         beside.mkdir(exist_ok=True)
@@ -87,24 +88,36 @@ def common_folder(runs: list[Path]) -> Path:
     return Path(os.path.commonpath(parents))
 
 
-def post_run(run: RunFolder, signed: Signed | None = None) -> list[Path]:
-    """Figures, statistics and report of one run; signed: what the report's front page says of who made it."""
-    statistics = run_statistics(run)
-    written, figures = save_all(run_drawings(run), run.path / "figures")
+def post_run(run: RunFolder, signed: Signed | None = None, choice: Choice = AS_IT_SUITS) -> list[Path]:
+    """Figures, statistics and report of one run, and of the blocks that it is to be cut into.
+
+    signed: what the report's front page says of who made it.
+    """
+    found = study(run_alone(run), choice) if choice.blocks else None
+    laws, statistics = {} if found is None else all_extremes(found), run_statistics(run)
+    drawings = run_drawings(run) + (sweep_drawings(found, laws) if found else [])
+    written, figures = save_all(drawings, run.path / "figures")
     if merge_summary(run.path / "summary.json", statistics):
         written.append(run.path / "summary.json")
-    written.append(write_run_report(run, statistics, figures, signed))
+    if found:
+        written.append(write_statistics(found, laws))
+    written.append(write_run_report(run, statistics, figures, signed, ensemble_tables(found, laws) if found else None))
     return written
+
+
+def all_extremes(found: Study) -> Laws:
+    """The laws of the highest loads of each ensemble on each structure."""
+    return {
+        (number, structure): extremes(found, ensemble, structure)
+        for number, ensemble in enumerate(found.ensembles)
+        for structure in found.sweep.structures
+    }
 
 
 def post_sweep(sweep: Sweep, choice: Choice = AS_IT_SUITS) -> list[Path]:
     """Statistics, figures and report of runs that differ in some keys, or in the seed alone."""
     found = study(sweep, choice)
-    laws = {
-        (number, structure): extremes(found, ensemble, structure)
-        for number, ensemble in enumerate(found.ensembles)
-        for structure in sweep.structures
-    }
+    laws = all_extremes(found)
     written, figures = save_all(sweep_drawings(found, laws), sweep.folder / "figures")
     written.append(write_statistics(found, laws))
     written.append(write_sweep_report(found, laws, figures))

@@ -25,8 +25,7 @@ def refuse_harm(folder: Path) -> None:
     if not is_sweep(folder) and not is_marked(folder / "case.toml"):
         raise CaseError(f"{folder}: holds no run: its case.toml is not one that a run wrote, so nothing is written beside it")
     _refuse_in(folder)
-    if is_sweep(folder):
-        _refuse_table(folder / STATISTICS)
+    _refuse_table(folder / STATISTICS)
 
 
 def refuse_harm_beside(folder: Path) -> None:

@@ -8,7 +8,7 @@ import math
 import os
 import re
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -128,6 +128,12 @@ def compare_runs(runs: list[RunFolder], folder: Path) -> Sweep:
     titles = list(dict.fromkeys(run.title for run in runs))
     title = titles[0] if len(titles) == 1 else f"Comparison of {len(runs)} runs"
     return Sweep(title, folder, keys, compared)
+
+
+def run_alone(run: RunFolder) -> Sweep:
+    """A run, as far as it came, as a sweep of one."""
+    sweep = compare_runs([run], run.path)
+    return replace(sweep, runs=[replace(sweep.runs[0], status="completed")])
 
 
 def headline(statistics: dict[str, Any]) -> dict[str, float]:

@@ -35,17 +35,19 @@ def of_quantity(ensemble: Ensemble, structure: str, quantity: str) -> dict[str, 
     }  # fmt: skip
 
 
-def rows_of(ensemble: Ensemble, structure: str, laws: Extremes) -> Iterator[Row]:
-    """All of one structure."""
+def rows_of(ensemble: Ensemble, structure: str, laws: Extremes, noun: str) -> Iterator[Row]:
+    """All of one structure; noun: what is counted, run or block."""
     for quantity in QUANTITIES:
         for statistic, band in of_quantity(ensemble, structure, quantity).items():
             yield quantity, statistic, band
-    for statistic, band in rows_of_laws(laws):
+    for statistic, band in rows_of_laws(laws, noun):
         yield HIGHEST, statistic, band
 
 
-def rows_of_laws(laws: Extremes) -> Iterator[tuple[str, Band]]:
+def rows_of_laws(laws: Extremes, noun: str) -> Iterator[tuple[str, Band]]:
     """Parameters and goodness of the laws, then the loads that one of so many runs exceeds."""
+    if laws.neighbours:
+        yield "neighbour_correlation", Band(len(laws.maxima), laws.neighbours[0])
     if laws.gumbel:
         count = len(laws.gumbel.maxima)
         yield "gumbel_location", laws.gumbel.location
@@ -65,7 +67,7 @@ def rows_of_laws(laws: Extremes) -> Iterator[tuple[str, Band]]:
         yield "pareto_shape", laws.pareto.shape
         yield "pareto_fit_chance", Band(count, laws.pareto.chance)
     for (law, runs), band in laws.levels.items():
-        yield f"{law}_level_{runs}_runs", band
+        yield f"{law}_level_{runs}_{noun}s", band
 
 
 def write_statistics(study: Study, laws: Laws) -> Path:
@@ -76,7 +78,7 @@ def write_statistics(study: Study, laws: Laws) -> Path:
     for number, ensemble in enumerate(study.ensembles):
         values = [cell(ensemble.values[key]) for key in study.sweep.keys]
         for structure in study.sweep.structures:
-            for quantity, statistic, band in rows_of(ensemble, structure, laws[number, structure]):
+            for quantity, statistic, band in rows_of(ensemble, structure, laws[number, structure], study.noun):
                 ends = [f"{end:.9g}" if math.isfinite(end) else "" for end in (band.value, band.low, band.high)]
                 writer.writerow([*values, structure, quantity, statistic, band.n, *ends])
     path = study.sweep.folder / STATISTICS

@@ -28,15 +28,15 @@ FEWEST, FIRST = 8, 5
 
 @styled
 def extremes_figure(study: Study, ensemble: Ensemble, structure: str, laws: Extremes, place: int) -> Drawing | None:
-    """Four panels on the highest horizontal load of the runs of one ensemble, the `place`-th of the sweep."""
+    """Four panels on the highest horizontal load of the runs, or blocks, of one ensemble, the `place`-th of the sweep."""
     if laws.gumbel is None or len(laws.maxima) < FEWEST:
         return None
     figure = new_figure(8.2, 7.0)
     panels = figure.subplots(2, 2)
-    draw_levels(panels[0, 0], laws)
-    draw_paper(panels[0, 1], laws.gumbel)
+    draw_levels(panels[0, 0], laws, study.noun)
+    draw_paper(panels[0, 1], laws.gumbel, study.noun)
     draw_excess(panels[1, 0], laws)
-    draw_growth(panels[1, 1], laws.maxima)
+    draw_growth(panels[1, 1], laws.maxima, study.noun)
     figure.legend(*panels[0, 0].get_legend_handles_labels(), loc="outside lower center", ncols=4)
     setting = setting_words(ensemble.values, study.sweep.keys)
     title = f"Rare loads on {structure}" + (f", {setting}" if setting else "")
@@ -45,13 +45,13 @@ def extremes_figure(study: Study, ensemble: Ensemble, structure: str, laws: Extr
 
 
 def caption(study: Study, laws: Extremes) -> str:
-    gumbel, pareto = laws.gumbel, laws.pareto
+    gumbel, pareto, nouns = laws.gumbel, laws.pareto, f"{study.noun}s"
     said = (
-        f"Highest horizontal force of {len(laws.maxima)} runs ({study.part.words()}), kN. Above left: the load that one of so many "
-        f"runs exceeds, by the laws, with 95 % bands; dots: the runs. Above right: the runs on Gumbel paper, shaded where 95 % of "
-        f"runs of this law would lie (correlation {number(gumbel.correlation, 3)}; {number(100.0 * gumbel.chance, 2)} % of samples "
-        f"of the law lie as badly). Below left: by how much hits exceed a threshold on average, with 95 % bands; straight where "
-        f"a generalized Pareto law holds. "
+        f"Highest horizontal force of {len(laws.maxima)} {nouns} ({study.looked_at}), kN. Above left: the load that one of so many "
+        f"{nouns} exceeds, by the laws, with 95 % bands; dots: the {nouns}. Above right: the {nouns} on Gumbel paper, shaded where "
+        f"95 % of {nouns} of this law would lie (correlation {number(gumbel.correlation, 3)}; {number(100.0 * gumbel.chance, 2)} % "
+        f"of samples of the law lie as badly). Below left: by how much hits exceed a threshold on average, with 95 % bands; "
+        f"straight where a generalized Pareto law holds. "
     )
     if pareto:
         chosen = "as asked for" if study.fixed else "the lowest that fits"
@@ -60,12 +60,21 @@ def caption(study: Study, laws: Extremes) -> str:
             f"{number(pareto.shape.value, 2)} ({number(pareto.shape.low, 2)} to {number(pareto.shape.high, 2)}). "
         )
     enough = needed(laws.maxima, CLOSENESS)
-    told = f" It would take about {enough} runs to know the mean within {100.0 * CLOSENESS:g} %." if enough else ""
-    growing = f"Below right: mean of the first n runs, and the load that one of {RARE_OF_GROWTH} exceeds, with 95 % bands."
-    return said + growing + told
+    told = f" It would take about {enough} {nouns} to know the mean within {100.0 * CLOSENESS:g} %." if enough else ""
+    growing = f"Below right: mean of the first n {nouns}, and the load that one of {RARE_OF_GROWTH} exceeds, with 95 % bands."
+    return said + growing + told + neighbour_words(laws)
 
 
-def draw_levels(axes: Axes, laws: Extremes) -> None:
+def neighbour_words(laws: Extremes) -> str:
+    """Whether blocks may be taken for independent, as a sentence; nothing of runs, which are."""
+    if laws.neighbours is None:
+        return ""
+    found, chance = (number(value, 2) for value in laws.neighbours)
+    verdict = "they depend on each other, and bands are too narrow: take longer ones" if laws.depend else "chance alone would do"
+    return f" Neighbouring blocks correlate by {found} (chance: within ±{chance}): {verdict}."
+
+
+def draw_levels(axes: Axes, laws: Extremes, noun: str) -> None:
     """Levels on an axis on which Gumbel's law is straight."""
     marks = reduced(RARE)
     shown = (("Gumbel", laws.gumbel, BLUE, "-"), ("GEV", laws.gev, ORANGE, "--"), ("Pareto, from hits", laws.pareto, GREEN, "-."))
@@ -75,11 +84,11 @@ def draw_levels(axes: Axes, laws: Extremes) -> None:
         bands = [law.level(runs) for runs in RARE]
         draw_band(axes, marks, bands, colour, dash, name)
     place = reduced(1.0 / (1.0 - plotting_places(len(laws.maxima))))
-    axes.plot(place, np.sort(laws.maxima) / 1e3, "o", color=BLACK, markersize=3.5, label="runs", zorder=4)
+    axes.plot(place, np.sort(laws.maxima) / 1e3, "o", color=BLACK, markersize=3.5, label=f"{noun}s", zorder=4)
     axes.set_xticks(reduced(np.array(RARE_MARKS)), [str(runs) for runs in RARE_MARKS])
     top = max(laws.maxima.max(), max((band.value for band in laws.levels.values() if np.isfinite(band.value)), default=0.0))
     axes.set_ylim(0.0, 1.6 * top / 1e3)
-    axes.set_xlabel("Exceeded by one run of")
+    axes.set_xlabel(f"Exceeded by one {noun} of")
     axes.set_ylabel("Highest horizontal force (kN)")
     axes.set_title("Return levels")
     axes.grid(True)
@@ -97,8 +106,8 @@ def draw_band(axes: Axes, place: np.ndarray, bands: list[Band], colour: str, das
     axes.plot(place, value, color=colour, linestyle=dash, linewidth=1.5, label=label, zorder=3)
 
 
-def draw_paper(axes: Axes, law: Gumbel) -> None:
-    """Probability plot: the sorted loads against the share of runs that stay below, straight for this law."""
+def draw_paper(axes: Axes, law: Gumbel, noun: str) -> None:
+    """Probability plot: the sorted loads against the share of runs, or blocks, that stay below, straight for this law."""
     count = len(law.maxima)
     rank = np.arange(1, count + 1)
     variate = reduced(1.0 / (1.0 - plotting_places(count)))
@@ -110,7 +119,7 @@ def draw_paper(axes: Axes, law: Gumbel) -> None:
     shares = [share for share in SHARES if variate[0] - 0.6 < -np.log(-np.log(share / 100.0)) < variate[-1] + 0.6]
     axes.set_yticks([-np.log(-np.log(share / 100.0)) for share in shares], [f"{share}" for share in shares])
     axes.set_xlabel("Highest horizontal force (kN)")
-    axes.set_ylabel("Runs that stay below (%)")
+    axes.set_ylabel(f"{noun.capitalize()}s that stay below (%)")
     axes.set_title("Gumbel paper")
     axes.grid(True)
 
@@ -142,7 +151,7 @@ def draw_law_of_excess(axes: Axes, law: Pareto, last: float) -> None:
         axes.plot(place, (law.scale / 1e3 + shape * (place - first)) / (1.0 - shape), color=GREEN, linestyle="-.")
 
 
-def draw_growth(axes: Axes, maxima: np.ndarray) -> None:
+def draw_growth(axes: Axes, maxima: np.ndarray, noun: str) -> None:
     """The first n runs, in the order of the sweep: the mean, and a rarer load by Gumbel's law."""
     count = len(maxima)
     every = np.unique(np.linspace(FIRST, count, min(24, count - FIRST + 1)).round().astype(int))
@@ -155,11 +164,11 @@ def draw_growth(axes: Axes, maxima: np.ndarray) -> None:
     for words, value, colour in ((f"one of {RARE_OF_GROWTH}", rare[-1].value, "#9a6a00"), ("mean", means[-1].value, BLUE)):
         place = {"xy": (count, value / 1e3), "xytext": (5, 0), "textcoords": "offset points", "va": "center"}
         axes.annotate(words, color=colour, annotation_clip=False, **place)
-    axes.set_title("Band against number of runs")
+    axes.set_title(f"Band against number of {noun}s")
     top = max(maxima.max(), max(band.value for band in rare if np.isfinite(band.value)))
     axes.set_ylim(0.0, 1.5 * top / 1e3)
     axes.set_xlim(0.0, count + 0.5)
     axes.xaxis.set_major_locator(MaxNLocator(integer=True))
-    axes.set_xlabel("Number of runs n")
+    axes.set_xlabel(f"Number of {noun}s n")
     axes.set_ylabel("Highest horizontal force (kN)")
     axes.grid(True)

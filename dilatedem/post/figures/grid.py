@@ -36,7 +36,7 @@ def grid_figure(study: Study, structure: str) -> Drawing | None:
     names = [describe_key(key)[0] for key in study.sweep.keys]
     caption = (
         f"Highest horizontal force of any time step (left) and mean force along the current (right) on {structure}, kN, means over "
-        f"the runs; {study.part.words()}. In each cell the mean, its 95 % band (from 5 runs on), and the number of runs."
+        f"the {study.noun}s; {study.looked_at}. In each cell the mean, its 95 % band (from 5 {study.noun}s on), and their number."
     )
     title = f"Force on {structure} by {' and '.join(names)}"
     return Drawing(f"map_{file_name('_'.join(study.sweep.keys))}_{file_name(structure)}", title, caption, figure)

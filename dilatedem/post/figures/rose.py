@@ -62,9 +62,10 @@ def rose_figure(study: Study, structure: str) -> Drawing | None:
     runs = sorted({len(study.ensembles[n].sample(structure, HIGHEST)) for n in found})
     caption = (
         f"Highest horizontal force of any time step (left) and mean force along the current (right) on {structure}, kN, outwards, "
-        f"against the direction that the current goes to, degrees from +x counter-clockwise; {study.part.words()}, "
-        f"{' to '.join(map(str, dict.fromkeys((runs[0], runs[-1]))))} runs to a direction. Small dots: runs; large marks: their "
-        f"mean, at the end of a pale spoke; thin bars: its 95 % band, from 5 runs on. A mean against the current is at the centre."
+        f"against the direction that the current goes to, degrees from +x counter-clockwise; {study.looked_at}, "
+        f"{' to '.join(map(str, dict.fromkeys((runs[0], runs[-1]))))} {study.noun}s to a direction. Small dots: {study.noun}s; "
+        f"large marks: their mean, at the end of a pale spoke; thin bars: its 95 % band, from 5 {study.noun}s on. A mean against "
+        f"the current is at the centre."
         f"{' Settings stand side by side.' if len(shown) > 1 else ''}"
     )
     return Drawing(f"rose_{file_name(structure)}", f"Load rose, {structure}", caption, figure)

@@ -104,7 +104,7 @@ def sweep_figure(study: Study, structure: str, key: str) -> Drawing | None:
     panels[1].set_xlabel(place_label(key, found))
     if sum(len(place) for place in set(found.values()) if isinstance(place, str)) > MOST_LETTERS:
         panels[1].tick_params(axis="x", rotation=90)
-    panels[0].set_title(f"Ice force on {structure} ({study.part.words()})")
+    panels[0].set_title(f"Ice force on {structure} ({study.looked_at})")
     if len(lines) > 1:
         columns = 2 if max(map(len, lines)) < 36 else 1
         figure.legend(*panels[0].get_legend_handles_labels(), loc="outside lower center", ncols=columns)
@@ -121,10 +121,10 @@ def varies(ensembles: list[Ensemble], key: str) -> bool:
 def draw_line(
     axes: Axes, study: Study, members: list[int], found: Places, structure: str, quantity: str, look: dict[str, Any]
 ) -> None:  # fmt: skip
-    """A thin line a seed, or dots where there is nothing to join; the mean over the seeds with its 95 % band."""
+    """A thin line a seed, or dots where there is nothing to join; the mean over the seeds, or blocks, with its 95 % band."""
     faint = {"color": look["color"], "alpha": 0.4, "zorder": 2}
     for seed, (at, force) in by_seed(study, members, found, structure, quantity).items():
-        joined = 0.7 if look["linewidth"] and seed is not None else 0.0
+        joined = 0.7 if look["linewidth"] and seed is not None and not study.blocks else 0.0
         axes.plot(at, force, marker=look["marker"], markersize=3.0, markeredgewidth=0, linewidth=joined, **faint)
     known = [n for n in members if len(study.ensembles[n].sample(structure, quantity))]
     place = [found[n] for n in known]
@@ -183,10 +183,11 @@ def dress_axes(axes: Axes, numbers: list[float]) -> None:
 
 def sweep_caption(study: Study, structure: str, key: str, ensembles: list[Ensemble], others: list[str]) -> str:
     counts = sorted({len(ensemble.sample(structure, HIGHEST)) for ensemble in ensembles})
-    repeats = f"{counts[0]} to {counts[-1]} runs" if len(counts) > 1 else plural(counts[0], "run")
+    repeats = f"{counts[0]} to {counts[-1]} {study.noun}s" if len(counts) > 1 else plural(counts[0], study.noun)
     spread = ""
     if counts[-1] > 1:
-        spread = " Thin: single runs, a line a seed where values can be joined; large marks: their mean"
+        single = "Small dots: single blocks" if study.blocks else "Thin: single runs, a line a seed where values can be joined"
+        spread = f" {single}; large marks: their mean"
         spread += ", with its 95 % band." if counts[-1] >= 5 else " (a band takes 5 runs)."
     left_out = sum(not run.completed for run in study.sweep.runs)
     words = f" Left out: {plural(left_out, 'run')} that did not complete." if left_out else ""
@@ -194,7 +195,7 @@ def sweep_caption(study: Study, structure: str, key: str, ensembles: list[Ensemb
     label = place_label(key, places(study, key))
     return (
         f"{QUANTITIES[HIGHEST].capitalize()} of any time step (above) and {QUANTITIES[MEAN_ALONG]} (below) on {structure}, kN, "
-        f"against {label[0].lower() + label[1:]}{by}; {study.part.words()}, {repeats} to a point.{spread}{words}"
+        f"against {label[0].lower() + label[1:]}{by}; {study.looked_at}, {repeats} to a point.{spread}{words}"
     )
 
 

@@ -37,7 +37,7 @@ from dilatedem.post.report.tables import (
 
 TEMPLATES = Path(__file__).with_name("templates")
 #: first words of the names of figures, by the section of the report that shows them; all others are of loads
-SECTIONS = {"ice": ("field", "plan", "speed"), "loads": (), "events": ("hit_",), "energy": ("energy",)}
+SECTIONS = {"blocks": ("extremes_",), "ice": ("field", "plan", "speed"), "loads": (), "events": ("hit_",), "energy": ("energy",)}
 
 ONE_HIT = (
     "These are no error bars of the run. They say how far this one hit, given the state before it, depends on the step; another "
@@ -47,8 +47,14 @@ ONE_HIT = (
 Figures = list[tuple[Drawing, str]]
 
 
-def write_run_report(run: RunFolder, statistics: dict[str, Any], figures: Figures, signed: Signed | None = None) -> Path:
-    """Write report.html of a run. statistics: as in summary.json under `post`; signed: what the front page says of who made it."""
+def write_run_report(
+    run: RunFolder, statistics: dict[str, Any], figures: Figures, signed: Signed | None = None, blocks: dict[str, Any] | None = None
+) -> Path:  # fmt: skip
+    """Write report.html of a run.
+
+    statistics: as in summary.json under `post`; signed: what the front page says of who made it; blocks: `ensemble_tables` of the
+    blocks that the run was cut into, None for none.
+    """
     return render(
         "run.html",
         run.path / "report.html",
@@ -61,6 +67,7 @@ def write_run_report(run: RunFolder, statistics: dict[str, Any], figures: Figure
         basis=basis_rows(run),
         headline=headline(run, statistics),
         loads=[load_section(run, name, entry) for name, entry in statistics["loads"].items()],
+        blocks=blocks,
         one_hit=ONE_HIT,
         checks=(found := checks(run)),
         verdict=verdict_words(found),
