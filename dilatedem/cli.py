@@ -188,6 +188,9 @@ def sweep(
     resume: Annotated[
         bool, typer.Option("--resume", help="Go on with a sweep of other cases, too.")
     ] = False,
+    check_all: Annotated[
+        bool, typer.Option("--check-all", help="Try the ice fields of all cases first, however long that takes.")
+    ] = False,
     dry_run: Annotated[
         bool, typer.Option("--dry-run", help="Say how many cases, floes, wall time and disk it takes; run nothing.")
     ] = False,
@@ -205,7 +208,7 @@ def sweep(
     """
     folder = out or Path(f"{_default_out(case)}-sweep")
     asked = {"vary": vary or (), "seeds": seeds, "jobs": jobs, "scheduler": scheduler, "out": folder, "resume": resume}
-    asked["overrides"] = overrides or ()
+    asked |= {"check_all": check_all, "overrides": overrides or ()}
     if dry_run:
         from dilatedem.sweeps.foretell import foretell
 

@@ -1,6 +1,7 @@
 """How every command speaks and ends: switches, lines on standard output, one message and an exit code for each known fault."""
 
 import functools
+import os
 import sys
 import time
 from collections.abc import Callable, Iterable, Iterator
@@ -14,6 +15,8 @@ from dilatedem.endings import ending
 from dilatedem.errors import printable
 from dilatedem.processes import interrupts
 
+#: exit code of a program whose output nobody reads any more: 128 and SIGPIPE
+UNREAD = 141
 #: s between two lines about what is being done, where there is no terminal
 LINE_INTERVAL_S = 10.0
 
@@ -54,6 +57,10 @@ def known_faults(command: Callable) -> Callable:
     def wrapped(*args: Any, **kwargs: Any) -> None:
         try:
             command(*args, **kwargs)
+            if sys.stdout:
+                sys.stdout.flush()
+        except BrokenPipeError:
+            nobody_reads()
         except (Exception, KeyboardInterrupt) as error:
             known = ending(error, can_resume=command.__name__ == "run")
             if not known:
@@ -101,6 +108,14 @@ def _now_and_then() -> Callable[[str], None]:
             whisper(said)
 
     return tell
+
+
+def nobody_reads() -> None:
+    """Ends the program without a word, as SIGPIPE ends others: whoever read its output has what he wanted, as `head` does."""
+    interrupts.program_ends()
+    with suppress(OSError, ValueError):  # what is left in the buffer has nowhere to go when Python ends
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    raise typer.Exit(UNREAD) from None
 
 
 def end(message: str, code: int) -> None:

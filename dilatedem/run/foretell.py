@@ -88,7 +88,7 @@ def told(facts: dict) -> dict:
     """The facts of `check` as people read them: words instead of records."""
     found = {label: fact for label, fact in facts.items() if label != "ice at" and not label.startswith("wall time")}
     least, most = facts["wall time, s, about"], facts["wall time in a jam, s, about"]
-    how = "its first steps tried" if facts["wall time was tried"] else "untried, and half a minute to compile, once"
+    how = "its first steps tried" if facts["wall time was tried"] else "untried, and one to two minutes to compile, once"
     found["wall time, about"] = f"{duration(least)}, in a jam up to {duration(most)} ({how})"
     return found | {f"ice at {name}": there.words() for name, there in facts["ice at"].items()}
 

@@ -132,7 +132,7 @@ def compile_kernels(
     })  # fmt: skip
     simulation = Simulation.of_case(case, threads=threads)
     if not simulation.is_compiled():
-        announce("compiling, once (about half a minute)")
+        announce("compiling, once (one to two minutes)")
     simulation.advance(1)
     _READY.add(kind)
 

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
-from dilatedem.case.schema import Case
+from dilatedem.errors import CaseError
 from dilatedem.run.foretell import check, duration
 from dilatedem.sweeps.earlier import look_for_earlier_runs
 from dilatedem.sweeps.plan import Job, plan
@@ -30,22 +30,28 @@ def foretell(
     scheduler: str | None = None,
     out: Path,
     resume: bool = False,
+    check_all: bool = False,
     overrides: Sequence[str] = (),
 ) -> dict[str, str | int]:
-    """Labels and values, of the sweep that these arguments of `sweep.sweep` stand for. Raises CaseError as that does."""
+    """Labels and values, of the sweep that these arguments of `sweep.sweep` stand for. Raises CaseError as that does.
+
+    check_all : look at all cases, and not at some that stand for the others.
+    """
     todo = plan(path, vary=vary, seeds=seeds, out=out, overrides=overrides)
     look_for_earlier_runs(todo, out, resume)
     waiting = [job for job in todo if job.status == "waiting"]
     told: dict[str, str | int] = {"cases": len(todo), "completed before": len(todo) - len(waiting)}
     if not waiting:
         return told
-    looked = [_facts(job.case) for job in spread(waiting)]
+    chosen = waiting if check_all else spread(waiting)
+    looked = [_facts(job) for job in chosen]
+    others = "" if len(chosen) == len(waiting) else "; all with --check-all"
     names = (FLOES, STEPS, SECONDS, JAMMED, MEMORY, DISK)
     found = {name: np.array([facts[name] for facts in looked], dtype=float) for name in names}
     total = {name: values.mean() * len(waiting) for name, values in found.items()}
     at_a_time = 1 if scheduler else min(jobs or core_count(), len(waiting))
     told |= {
-        "looked at": f"{len(looked)} of the {len(waiting)} cases to be run",
+        "looked at": f"{len(looked)} of the {len(waiting)} cases to be run{others}",
         "floes of a case": _range(found[FLOES]),
         "steps of a case": _range(found[STEPS]),
         "wall time of a case, about": f"{duration(found[SECONDS].min())} to {duration(found[SECONDS].max())}",
@@ -64,8 +70,12 @@ def spread(jobs: list[Job]) -> list[Job]:
     return [jobs[i] for i in np.unique(np.linspace(0, len(jobs) - 1, MOST_LOOKS).round().astype(int))]
 
 
-def _facts(case: Case) -> dict:
-    return check(case, trial_s=TRIAL_S)
+def _facts(job: Job) -> dict:
+    """What `check` says of a case. Raises CaseError as that does, with the folder of the case."""
+    try:
+        return check(job.case, trial_s=TRIAL_S)
+    except CaseError as error:
+        raise CaseError(f"{job.folder.name}: {error}") from None
 
 
 def _range(values: np.ndarray) -> str:

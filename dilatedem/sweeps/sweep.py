@@ -1,14 +1,16 @@
 """A grid of cases, each run into its own folder, and one table of what came out.
 
-All cases are checked before anything is written. A run that dies takes none but its own case with it, and the table names that.
+All cases are checked before anything is written, and as many of their ice fields as a few seconds allow. A run that dies takes none
+but its own case with it, and the table names that.
 """
 
 import os
+import sys
 from collections.abc import Sequence
 from contextlib import suppress
 from pathlib import Path
 
-from dilatedem.errors import CaseError, Interrupted, SimulationStopped
+from dilatedem.errors import CaseError, Interrupted, SimulationStopped, printable
 from dilatedem.files.atomic import write_text
 from dilatedem.files.faults import told_as
 from dilatedem.files.lock import Lock
@@ -30,6 +32,7 @@ def sweep(
     scheduler: str | None = None,
     out: Path,
     resume: bool = False,
+    check_all: bool = False,
     overrides: Sequence[str] = (),
 ) -> Path:
     """Runs the grid of cases and returns the path of its table, `out`/sweep.csv; what is completed already is left as it is.
@@ -39,6 +42,7 @@ def sweep(
     jobs : processes at a time; one per core unless given.
     scheduler : address of a Dask scheduler, whose workers run the cases instead.
     resume : go on with a sweep of other cases, too, and with cases that end later than they did.
+    check_all : make the ice fields of all cases before the first run, not of as many as a few seconds allow.
 
     Fails with CaseError before anything is written; with SimulationStopped, naming the cases, once all others
     are done; with Interrupted when the user stops it, the state of the running cases being saved.
@@ -48,6 +52,10 @@ def sweep(
     todo, lock = plan(path, vary=vary, seeds=seeds, out=out, overrides=overrides), Lock(out)
     with told_as(CaseError):
         look_for_earlier_runs(todo, out, resume)
+        from dilatedem.sweeps.fields import require_fields  # loads what builds cases: once their keys are known to be fine
+
+        if note := require_fields(todo, every=check_all):
+            print(printable(f"note: {note}"), file=sys.stderr)
         with lock:
             look_for_earlier_runs(todo, out, resume)  # again: another sweep may have ended here in between
             with _executor(todo, jobs, scheduler, lock) as executor, told_as(SimulationStopped, lambda error: "; --resume goes on"):

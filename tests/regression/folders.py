@@ -13,7 +13,7 @@ from dilatedem.cli import app
 from dilatedem.output import checkpoint
 from dilatedem.processes import children
 from dilatedem.processes.children import Answer
-from dilatedem.sweeps import local
+from dilatedem.sweeps import fields, local
 
 ROOT = Path(__file__).parents[2]
 CASES = ROOT / "tests" / "cases"
@@ -28,6 +28,7 @@ def without_work(patch, work=lambda order, tell: Answer(0)) -> None:
     """Have `work` stand for what the processes of a sweep do with a case: nothing, and say that all went well, unless given."""
     patch.setattr(local, "simulate_here", work)
     patch.setattr(local.Local, "warm", lambda *_: None)
+    patch.setattr(fields, "require_fields", lambda *_, **__: "")
     patch.setattr(children, "way_to_start", lambda: "fork")  # copies know the stand-in; the threads of pytest sleep
 
 

@@ -2,6 +2,7 @@
 
 import io
 import json
+import os
 import subprocess
 import sys
 import types
@@ -158,7 +159,7 @@ def test_sweep_passes_its_options(simulation, monkeypatch):
     assert result.exit_code == 0
     assert asked == {
         "vary": ["a=1", "b=2"], "seeds": 3, "jobs": 2, "scheduler": None, "out": Path("runs/pile-sweep"),
-        "resume": False, "overrides": ["c=1"],
+        "resume": False, "check_all": False, "overrides": ["c=1"],
     }
 
 
@@ -197,6 +198,19 @@ def test_module_is_a_command():
     )
     assert (done.returncode, done.stdout) == (2, "")
     assert done.stderr == "nowhere.toml: no such case file\n"
+
+
+def test_output_that_nobody_reads_ends_the_program_without_a_word(tmp_path):
+    """As behind `head`: whether more was to come, or all of it was still in the buffer."""
+    for arguments in (["schema"], ["init", "small", "--out", str(tmp_path / "case.toml")]):
+        read, write = os.pipe()
+        os.close(read)
+        command = [sys.executable, "-m", "dilatedem", *arguments]
+        done = subprocess.run(command, stdout=write, stderr=subprocess.PIPE, text=True, check=False)
+        os.close(write)
+        assert (done.returncode, done.stderr) == (141, "")
+    closed = subprocess.run(f"{sys.executable} -m dilatedem schema >&-", shell=True, stderr=subprocess.PIPE, text=True, check=False)
+    assert (closed.returncode, closed.stderr) == (0, "")
 
 
 def test_times_are_readable():

@@ -55,7 +55,8 @@ def few_words(study: Study) -> str:
     counts = [len(ensemble.members) for ensemble in study.ensembles]
     if min(counts, default=least) >= least:
         return ""
-    return f"What 90 % of the {study.noun}s stay below is told from {least} {study.noun}s on: of fewer it would be no more than the largest."
+    few = f"What 90 % of the {study.noun}s stay below is told from {least} {study.noun}s on"
+    return f"{few}: of fewer it would be no more than the largest."
 
 
 def statistics_tables(study: Study, structure: str) -> list[dict[str, Any]]:

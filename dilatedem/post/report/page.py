@@ -39,6 +39,10 @@ TEMPLATES = Path(__file__).with_name("templates")
 #: first words of the names of figures, by the section of the report that shows them; all others are of loads
 SECTIONS = {"blocks": ("extremes_",), "ice": ("field", "plan", "speed"), "loads": (), "events": ("hit_",), "energy": ("energy",)}
 
+#: a unit of two symbols, which no line may end within
+UNIT = re.compile(r"\b(?:[kM]?N|kJ) (?:m|s)\b")
+NO_BREAK = "\N{NO-BREAK SPACE}"
+
 ONE_HIT = (
     "These are no error bars of the run. They say how far this one hit, given the state before it, depends on the step; another "
     "history of the ice, of another step or another seed, has another highest hit. For that spread, run several seeds."
@@ -118,7 +122,7 @@ def render(template: str, path: Path, **content: Any) -> Path:
         undefined=jinja2.StrictUndefined,
     )  # fmt: skip
     environment.globals |= {"asset": asset, "css_text": css_text}
-    environment.filters["in_code"] = in_code
+    environment.filters |= {"in_code": in_code, "typeset": typeset}
     write_text(path, environment.get_template(template).render(**content))
     return path
 
@@ -137,6 +141,12 @@ def in_code(text: str) -> Markup:
     """A text in which `words` between accents are code."""
     parts = str(text).split("`")
     return Markup("").join(Markup("<code>{}</code>").format(part) if k % 2 else part for k, part in enumerate(parts))
+
+
+def typeset(text: str) -> Markup:
+    """A text as a table shows it: no break within a unit such as kN m, and C_R of ISO 19906 with its index."""
+    whole = UNIT.sub(lambda unit: unit[0].replace(" ", NO_BREAK), str(text))
+    return Markup("C<sub>R</sub>").join(Markup.escape(part) for part in whole.split("C_R"))
 
 
 def inline(figures: Figures, live: dict[str, tuple[str, dict[str, Any]]] | None = None) -> list[dict[str, Any]]:

@@ -6,11 +6,12 @@ from dataclasses import replace
 import pytest
 
 from dilatedem.post import post
+from dilatedem.post.folders import run_statistics
 from dilatedem.post.read import open_run
 from dilatedem.post.report.front import direction, identity_rows, moment
 from dilatedem.post.report.ice import field_rows
 from dilatedem.post.report.inputs import input_groups, meanings, schema_key
-from dilatedem.post.report.page import css_text, in_code
+from dilatedem.post.report.page import css_text, in_code, typeset, write_run_report
 
 
 @pytest.fixture(scope="module")
@@ -91,3 +92,12 @@ def test_field_is_told_in_figures(run):
 def test_texts_are_safe_in_style_sheets_and_code():
     assert css_text('a "b" </style>') == '"a \\22 b\\22  \\3c \\2f style\\3e "'
     assert in_code("`open` <or> `wall`") == "<code>open</code> &lt;or&gt; <code>wall</code>"
+
+
+def test_units_stay_whole_and_an_index_is_one(run):
+    """No line ends within kN m, and C_R of ISO 19906 has its index; what else a text holds is escaped."""
+    assert str(typeset("moment (kN m)")) == "moment (kN\N{NO-BREAK SPACE}m)"
+    assert str(typeset("12 kN s, at 5 s; 3 kJ, C_R <b>")) == "12 kN\N{NO-BREAK SPACE}s, at 5 s; 3 kJ, C<sub>R</sub> &lt;b&gt;"
+    page = write_run_report(run, run_statistics(run), []).read_text()
+    assert "moment (kN\N{NO-BREAK SPACE}m)" in page and "level ice, C<sub>R</sub> 1.8 MPa (kN)" in page
+    assert "C_R" not in page and "kN m" not in page

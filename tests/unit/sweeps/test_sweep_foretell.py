@@ -17,7 +17,7 @@ def facts(case) -> dict:
 @pytest.fixture
 def looks(monkeypatch) -> list[int]:
     looked: list[int] = []
-    monkeypatch.setattr(room, "_facts", lambda case: looked.append(case.field.seed) or facts(case))
+    monkeypatch.setattr(room, "_facts", lambda job: looked.append(job.case.field.seed) or facts(job.case))
     return looked
 
 
@@ -25,7 +25,8 @@ def test_some_of_the_cases_stand_for_all(looks, tmp_path):
     told = foretell(CROWDED, seeds=20, jobs=2, out=tmp_path / "out", overrides=["field.seed=1"])
     assert looks == [1, 4, 6, 9, 12, 15, 17, 20]
     assert told == {
-        "cases": 20, "completed before": 0, "looked at": "8 of the 20 cases to be run", "floes of a case": "20 to 21",
+        "cases": 20, "completed before": 0, "looked at": "8 of the 20 cases to be run; all with --check-all",
+        "floes of a case": "20 to 21",
         "steps of a case": "7", "wall time of a case, about": "10 s to 3.3 min", "cases at a time": 2,
         "processor time in all, about": "35 min, in jams up to 2.3 h", "wall time in all, about": "18 min, in jams up to 70 min",
         "memory at a time, MB, about": "200", "disk, MB, about": "50",
