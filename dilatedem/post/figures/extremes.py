@@ -62,7 +62,13 @@ def caption(study: Study, laws: Extremes) -> str:
     enough = needed(laws.maxima, CLOSENESS)
     told = f" It would take about {enough} {nouns} to know the mean within {100.0 * CLOSENESS:g} %." if enough else ""
     growing = f"Below right: mean of the first n {nouns}, and the load that one of {RARE_OF_GROWTH} exceeds, with 95 % bands."
-    return said + growing + told + neighbour_words(laws)
+    return said + growing + told + idle_words(laws, study.noun) + neighbour_words(laws)
+
+
+def idle_words(laws: Extremes, noun: str) -> str:
+    """How many runs or blocks bore nothing, which no law foresees, as a sentence; nothing where all bore some load."""
+    idle = int(np.count_nonzero(laws.maxima == 0.0))
+    return f" {idle} of the {noun}s bore no load, which the laws do not foresee." if idle else ""
 
 
 def neighbour_words(laws: Extremes) -> str:

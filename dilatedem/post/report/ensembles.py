@@ -10,7 +10,7 @@ from dilatedem.post.ensembles.measures import HIGHEST, MEAN_ALONG, QUANTITIES
 from dilatedem.post.ensembles.study import Ensemble, Study
 from dilatedem.post.ensembles.sweeps import value_words
 from dilatedem.post.ensembles.table import Laws, of_quantity
-from dilatedem.post.figures.extremes import neighbour_words
+from dilatedem.post.figures.extremes import idle_words, neighbour_words
 from dilatedem.post.figures.sweep import plural, turning_label, turns, vector_words
 from dilatedem.post.labels import axis_label, number
 from dilatedem.statistics import Band, enough_for, needed
@@ -34,7 +34,7 @@ def ensemble_tables(study: Study, laws: Laws) -> dict[str, Any]:
         "statistics": [table for structure in structures for table in statistics_tables(study, structure)],
         "enough": enough_words(study),
         "rare": [table for structure in structures if (table := rare_table(study, structure, laws))["rows"]],
-        "neighbours": neighbour_notes(study, laws),
+        "doubts": doubts_of_laws(study, laws),
         "hits": f"{number(study.threshold / 1e3, 3)} kN, apart by {number(study.gap)} s or more below it",
     }
 
@@ -151,12 +151,13 @@ def law_rows(found: Extremes, noun: str) -> Rows:
     return rows
 
 
-def neighbour_notes(study: Study, laws: Laws) -> list[str]:
-    """Of blocks, whether they may be taken for independent, for each structure; of several settings the ones that may not."""
+def doubts_of_laws(study: Study, laws: Laws) -> list[str]:
+    """For each structure how many bore no load, and whether blocks are independent; of several settings the doubtful ones."""
     several = len(study.ensembles) > 1
     found = []
     for (place, structure), law in laws.items():
-        if law.neighbours is not None and (law.depend or not several):
+        said = idle_words(law, study.noun) + (neighbour_words(law) if law.depend or not several else "")
+        if said and law.gumbel is not None:
             setting = f", {', '.join(value_cells(study, study.ensembles[place].values))}" if several else ""
-            found.append(f"{structure}{setting}:{neighbour_words(law)}")
+            found.append(f"{structure}{setting}:{said}")
     return found

@@ -154,3 +154,14 @@ def test_a_part_of_a_run_is_cut(make_run, tmp_path):
     found = study(run_alone(run), Choice(part=Part(1.0, 3.0, "s"), blocks=Blocks(0.06, "m")))  # 0.2 s each
     assert len(found.ensembles[0].members) == 10
     assert found.looked_at == "time from 1 to 3 s, in blocks of 0.06 m of drift"
+
+
+def test_blocks_without_a_load_are_told(make_run, tmp_path):
+    """The made-up ice comes at a third of the time: blocks before that bear nothing, and have no GEV."""
+    run = make_run(tmp_path / "run", duration=10.0, snapshots=False)
+    force = np.genfromtxt(run / "forces.csv", delimiter=",", names=True, dtype=None, encoding="utf-8")["fh_max_N"]
+    idle = sum(not force[25 * k : 25 * k + 25].any() for k in range(40))
+    assert idle > 14
+    post([run], block="0.25s")
+    assert (run / "report.html").read_text().count(f"{idle} of the blocks bore no load") == 2
+    assert "gev_" not in (run / "statistics.csv").read_text()

@@ -21,6 +21,14 @@ def test_gumbels_law_is_scipys_fit_and_moves_with_the_unit():
     assert fit_gumbel(values[:4]) is None and fit_gumbel([3.0] * 9) is None
 
 
+def test_values_of_which_a_third_are_the_same_have_no_gev():
+    """Runs that no ice met: their likelihood grows without bounds as the scale shrinks around them."""
+    loads = stats.gumbel_r(10.0, 3.0).rvs(20, random_state=2)
+    assert fit_gev(np.concatenate([loads, np.zeros(10)])) is None
+    few = fit_gev(np.concatenate([loads, np.zeros(5)]))
+    assert few is not None and few.scale > 0.1 and few.value(10) > 5.0
+
+
 def test_gumbels_bands_are_exact():
     """Of samples that were not the ones that bands are made of, 95 % hold the true level, whatever the number of runs."""
     random, true = np.random.default_rng(5), float(stats.gumbel_r(3.0, 2.0).ppf(0.99))
