@@ -1,4 +1,4 @@
-"""Coverage of the bands of `dilatedem.statistics` over ensembles of known laws, into coverage.csv and the table of README.md.
+"""Coverage of the bands of `dilatedem.statistics` over ensembles of known laws: coverage.csv, table and picture of README.md.
 
 `python -m validation.statistics.run [ensembles]`: 1000 unless said, for most of an hour on one core. What coverage.csv has
 is not made anew: remove it first.
@@ -11,6 +11,7 @@ import sys
 from pathlib import Path
 
 from validation.statistics.coverage import LEAST, MOST, cells, coverage
+from validation.statistics.figure import draw
 
 HERE = Path(__file__).parent
 RECORD = HERE / "coverage.csv"
@@ -29,6 +30,7 @@ def main(ensembles: int = 1000) -> None:
             for name, percent in zip(cell.names, coverage(cell, ensembles), strict=True):
                 csv.writer(file, lineterminator="\n").writerow([name, cell.law, cell.runs, ensembles, f"{percent:.1f}"])
     write_page()
+    draw(recorded(), HERE / "coverage.png")
 
 
 def recorded() -> list[dict[str, str]]:
