@@ -40,6 +40,8 @@ FORMS = {
     "test_stack": "Resting stacks",
     "test_collision": "Momentum of a collision",
     "test_forces_by_mode": "Force by contact mode at 0.1 mm overlap",
+    "test_free_modes": "Free vibration of a beam and of a plate",
+    "test_bending": "Beams and floes that bend at rest",
     "test_consistent_bounds": "What is asked of `consistent`",
 }
 
