@@ -40,7 +40,7 @@ def beams() -> list[str]:
         row = [f"{size:g}", str(len(body.elements.nodes)), *percent(found, reference.timoshenko())]
         rows.append([*row, f"{twist:.4f}", f"{body.mesh.quality:.2f}"])
     head = ["elements, m", "nodes", "f1, Hz", "f2, Hz", "f3, Hz", "largest ∫ρ φi × φj", "quality of the mesh"]
-    return ["### A free beam, bending up and down", "", *table(head, rows)]
+    return ["## A free beam, bending up and down", "", *table(head, rows)]
 
 
 def plates() -> list[str]:
@@ -48,7 +48,7 @@ def plates() -> list[str]:
     for size in PLATE_SIZES:
         body = plate(size, 3)
         rows.append([f"{size:g}", str(len(body.elements.nodes)), *percent(plate_numbers(body.modes), np.array(reference.PLATE))])
-    return ["### A free square plate, a² ω √(ρh/D) at h/a = 1/50", "", *table(["elements, m", "nodes", "1", "2", "3"], rows)]
+    return ["## A free square plate, a² ω √(ρh/D) at h/a = 1/50", "", *table(["elements, m", "nodes", "1", "2", "3"], rows)]
 
 
 def sags() -> list[str]:
@@ -61,7 +61,7 @@ def sags() -> list[str]:
     text = f"Middle deflection by the mesh {bent.whole:.6f} m, by theory {bending:.6f} m and {shear:.6f} m of shear; stress of the"
     text += f" middle by mode acceleration {bent.stress / 1e6:.4f} MPa, by theory {reference.sagging_stress() / 1e6:.4f} MPa."
     head = ["symmetric modes", "error of a series of Euler-Bernoulli's modes", "of those of the mesh, against all of them"]
-    return ["### A beam on its ends, under its weight", "", text, "", *table(head, rows)]
+    return ["## A beam on its ends, under its weight", "", text, "", *table(head, rows)]
 
 
 def floats() -> list[str]:
@@ -71,7 +71,7 @@ def floats() -> list[str]:
         target = float(reference.floating_moment(place, 1000.0))
         rows.append([f"{place:.3f}", f"{target:.1f}", *percent([recovered_moment(body, force, place)], [target])])
     head = ["from the loaded end, m", "P x (1 - x/L)², N m", "from the stress of the mesh, N m"]
-    return ["### A rigid floe on water, 1000 N on its end", "", *table(head, rows)]
+    return ["## A rigid floe on water, 1000 N on its end", "", *table(head, rows)]
 
 
 def floes() -> list[str]:
@@ -83,7 +83,7 @@ def floes() -> list[str]:
         hertz = (f"{value:.2f}" for value in body.modes.frequency / (2.0 * np.pi))
         rows.append([f"{size:g}", str(len(body.elements.nodes)), *hertz, f"{taken:.1f}"])
     head = ["elements, m", "nodes", *(f"f{k}, Hz" for k in range(1, 7)), "processor, s"]
-    return ["### A floe of 2.8 m x 2.8 m x 0.5 m", "", *table(head, rows)]
+    return ["## A floe of 2.8 m x 2.8 m x 0.5 m", "", *table(head, rows)]
 
 
 def main() -> None:
