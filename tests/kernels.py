@@ -165,6 +165,6 @@ def watch_history(force, dt, clock, model, ids, bodies, pairs, workspace, loads,
         for h in range(force.shape[1]):
             for m in range(3):
                 loads.step_load[h, m] = force[k, h, m]
-        watch_hits(0, 0, dt, clock, model, ids, bodies, pairs, workspace, loads, hits, log)
+        watch_hits(clock.step[0], 0, 0, dt, model, ids, bodies, pairs, workspace, loads, hits, log)
 
 

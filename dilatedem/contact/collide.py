@@ -58,24 +58,36 @@ def _end_contact(pairs, k, dt):
 
 
 @item
+def gap_between(k, shapes, vertex, face_normal, position, pairs, contact, surroundings):
+    """Gap of pair k [m], negative where surfaces overlap, for bodies at `position` (n, 3), turned as `vertex` and
+    `face_normal` are.
+
+    Returns with it: from the centroid of a to that of b, normal, point of a and of b from the centroid of a, of their cores, and
+    the two radii there together.
+    """
+    a, b = pairs.a[k], pairs.b[k]
+    offset = separation(position, a, b, surroundings)
+    if shapes.kind[b] != 0:
+        distance, normal, pa, pb = _meet_half_space(vertex, shapes, pairs, k, a, b, position)
+        offset = sub(load(position, b), load(position, a))
+    else:
+        distance, normal, pa, pb = closest(vertex, face_normal, shapes, pairs, k, a, b, offset)
+    radius_b = radius_at(shapes, vertex, b, sub(pb, offset))
+    gap = distance - shapes.radius[a] - radius_b + worn(contact, k, pairs)
+    return gap, offset, normal, pa, pb, shapes.radius[a] + radius_b
+
+
+@item
 def collide(k, dt, shapes, vertex, face_normal, solids, bodies, pairs, contact, surroundings, scratch):
     """Evaluate pair k at this instant; writes its rows of `pairs` and nothing else.
 
     vertex (v, 3), face_normal (f, 3): turned to world directions; dt [s]: the step that led here, 0 at the start;
     scratch (8, MOST_CORNERS, 3). A contact's force is repulsive: Liu 2015, Eq. (3), never below zero.
     """
-    a, b = pairs.a[k], pairs.b[k]
-    offset = separation(bodies.position, a, b, surroundings)
-    if shapes.kind[b] != 0:
-        distance, normal, pa, pb = _meet_half_space(vertex, shapes, pairs, k, a, b, bodies.position)
-        offset = sub(load(bodies.position, b), load(bodies.position, a))
-    else:
-        distance, normal, pa, pb = closest(vertex, face_normal, shapes, pairs, k, a, b, offset)
-    radius_b = radius_at(shapes, vertex, b, sub(pb, offset))
-    gap = distance - shapes.radius[a] - radius_b + worn(contact, k, pairs)
+    gap, offset, normal, pa, pb, reach = gap_between(k, shapes, vertex, face_normal, bodies.position, pairs, contact, surroundings)
     if gap >= 0.0:
-        gap = remember(contact, k, gap, shapes.radius[a] + radius_b, bodies, pairs, pa)
-        pairs.wake[k] = bodies.path[a] + bodies.path[b] + gap
+        gap = remember(contact, k, gap, reach, bodies, pairs, pa)
+        pairs.wake[k] = bodies.path[pairs.a[k]] + bodies.path[pairs.b[k]] + gap
         store(pairs.normal, k, normal)
         if pairs.overlap[k] > 0.0:
             _end_contact(pairs, k, dt)

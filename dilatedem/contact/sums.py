@@ -5,9 +5,35 @@ Every sum is taken in the order of the pairs, so that results are the same for a
 
 from dilatedem.jit import item, prefetch
 from dilatedem.numerics.vector import accumulate, add, cross, load, scale
+from dilatedem.state.response import is_free
 
 #: pairs between the one whose results are asked for and the one that is summed
 AHEAD = 24
+
+
+@item
+def sum_on_held(bodies, pairs, solids):
+    """Contact force and torque on the bodies that nothing moves, of all contacts there are."""
+    for i in range(len(bodies.contact_count)):
+        if not is_free(i, solids):
+            bodies.contact_count[i] = 0
+            for m in range(3):
+                bodies.contact_force[i, m] = 0.0
+                bodies.contact_torque[i, m] = 0.0
+    for k in range(pairs.count[0]):
+        a, b = pairs.a[k], pairs.b[k]
+        if pairs.overlap[k] <= 0.0 or (is_free(a, solids) and is_free(b, solids)):
+            continue
+        force, couple = load(pairs.force, k), load(pairs.couple, k)
+        if not is_free(a, solids):
+            torque = add(couple, cross(load(pairs.point, k), force))
+            accumulate(bodies.contact_force, a, scale(-1.0, force))
+            accumulate(bodies.contact_torque, a, scale(-1.0, torque))
+            bodies.contact_count[a] += 1
+        if not is_free(b, solids):
+            accumulate(bodies.contact_force, b, force)
+            accumulate(bodies.contact_torque, b, add(couple, cross(load(pairs.arm, k), force)))
+            bodies.contact_count[b] += 1
 
 
 @item

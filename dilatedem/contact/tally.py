@@ -13,8 +13,8 @@ CRUSHED_THROUGH = 0.95
 
 
 @item
-def book_contact(k, part, dt, structure_of, shapes, contact, pairs, tally):
-    """Add what pair k cost and showed in this step to row `part` of the tally (`state.storage.Tally`)."""
+def book_contact(k, part, dt, steps, structure_of, shapes, contact, pairs, tally):
+    """Add what pair k cost and showed in a stride of so many steps of dt [s] to row `part` of the tally (`state.storage.Tally`)."""
     tally.work[part, 0] += 1
     tally.work[part, 1] += pairs.rounds[k]
     for term in range(TERMS):
@@ -25,8 +25,8 @@ def book_contact(k, part, dt, structure_of, shapes, contact, pairs, tally):
             pairs.cost[k, term] = 0.0
         return
     on_structure, mode = 1 if structure_of[pairs.b[k]] >= 0 or structure_of[pairs.a[k]] >= 0 else 0, pairs.mode[k]
-    tally.mode_steps[part, on_structure, mode] += 1.0
-    tally.mode_impulse[part, on_structure, mode] += pairs.normal_force[k] * dt
+    tally.mode_steps[part, on_structure, mode] += steps
+    tally.mode_impulse[part, on_structure, mode] += pairs.normal_force[k] * (dt * steps)
     tally.mode_force[part, on_structure, mode] = max(tally.mode_force[part, on_structure, mode], pairs.normal_force[k])
     tally.mode_overlap[part, on_structure, mode] = max(tally.mode_overlap[part, on_structure, mode], pairs.overlap[k])
     a, b = pairs.a[k], pairs.b[k]

@@ -62,6 +62,20 @@ def drift(i, dt, solids, bodies, reach, frame):
 
 
 @item
+def place_ahead(i, dt, solids, bodies, position, orientation):
+    """Write to rows of `position` (n, 3) and `orientation` (n, 4) where `drift` would bring body i."""
+    q = bodies.orientation
+    if not is_free(i, solids):
+        store(position, i, load(bodies.position, i))
+        orientation[i, 0], orientation[i, 1], orientation[i, 2], orientation[i, 3] = q[i, 0], q[i, 1], q[i, 2], q[i, 3]
+        return
+    middle, _, spin = _middle(i, dt, solids, bodies, rotation_matrix(q[i, 0], q[i, 1], q[i, 2], q[i, 3]))
+    store(position, i, along(load(bodies.position, i), dt, middle))
+    w, x, y, z = turned((q[i, 0], q[i, 1], q[i, 2], q[i, 3]), spin, dt)
+    orientation[i, 0], orientation[i, 1], orientation[i, 2], orientation[i, 3] = w, x, y, z
+
+
+@item
 def kick(i, dt, solids, bodies):
     """The second half of the kick of body i, by the loads at the end of the step; `complete_spin` turns it into a spin."""
     store(bodies.velocity, i, pushed(i, solids, load(bodies.middle_velocity, i), 0.5 * dt, load(bodies.force, i)))

@@ -90,5 +90,6 @@ def _by_pace(bodies, workspace):
             busy += 1
         else:
             workspace.idle[idle] = i
+            workspace.stride[i] = 1  # of the whole span
             idle += 1
     return busy, idle

@@ -72,6 +72,12 @@ def _impact_speed(model, bodies, free) -> float:
     return max(2.0 * moving, moving + driven, current + driven, settling, 1e-6)
 
 
+def usual_speed(model, bodies) -> float:
+    """How fast [m/s] bodies, water or structures go at t = 0, whichever is fastest; what gravity gives bodies where all rests."""
+    speed = max(float(norm(bodies.velocity).max(initial=0.0)), fastest_water(model.loads), _fastest_driven(model))
+    return speed if speed > 0.0 else SETTLING_SPEED * float(np.sqrt(model.loads.gravity * model.shapes.reach.max(initial=0.0)))
+
+
 def _fastest_driven(model) -> float:
     """The speed [m/s] that no point of a driven structure is faster than."""
     supports, fastest = model.supports, 0.0

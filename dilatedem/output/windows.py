@@ -33,7 +33,7 @@ def end_open_window(windows: Windows, loads: Loads, step: int) -> None:
         windows.due[k], windows.steps[k] = step, loads.steps[0]
         windows.sum[k], windows.extreme[k], windows.contacts[k] = loads.window_sum, loads.window_extreme, loads.contact_sum
         windows.count[0] += 1
-        loads.steps[0] = 0
+        loads.steps[0], loads.window_sum[:] = 0, 0.0
 
 
 class Ended(NamedTuple):

@@ -14,6 +14,9 @@ LONGEST_SPAN = 4e-3
 LONGEST_STEP = 4e-3
 #: most steps in such a step
 MOST_SPAN = 32
+#: angular frequency of the contacts that a single step is made for, in units of 1/critical step: at most, softer ones take several
+#: in one (`motion.strides`)
+STRIDE_PHASE = 2.0
 #: what a step of all idle bodies costs, in units of a step of the busy ones and their contacts; effect: the span that the automatic
 #: step is made for
 IDLE_COST = 2.0

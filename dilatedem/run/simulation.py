@@ -13,13 +13,14 @@ from dilatedem.errors import CaseError, SimulationStopped
 from dilatedem.events.event import Event
 from dilatedem.events.kinds import events_of
 from dilatedem.jit import Alone, NoTimer, Team, Timer, is_cached, share_among, start_threads
-from dilatedem.motion.timestep import critical_step
+from dilatedem.motion.strides import Pace
+from dilatedem.motion.timestep import critical_step, usual_speed
 from dilatedem.run.advice import advice
 from dilatedem.run.crew import Crew
 from dilatedem.run.error_check import Watch
 from dilatedem.run.faults import fault
 from dilatedem.run.hits import hit_log, hits_at_start
-from dilatedem.run.pace import free_span, time_step
+from dilatedem.run.pace import STRIDE_PHASE, free_span, time_step
 from dilatedem.run.views import Floes, Structures
 from dilatedem.scene.arrays import build_model, initial_bodies, initial_excursions
 from dilatedem.scene.entering import Entering
@@ -87,6 +88,8 @@ class Simulation:
     critical: float
     span: int = 1  # steps that bodies which nothing can touch take in one
     threads: int = 1
+    speed: float = 0.0  # m/s, how fast ice is taken to go
+    strides: bool = True  # whether busy bodies may take several steps in one, too
     remodelled: bool = False  # whether bodies have come or gone
     timer: NoTimer | Timer = NoTimer()  # a `Timer` for a step that tells how long its stages take
     entering: Entering | None = field(init=False)  # the ice that enters, if any does
@@ -127,7 +130,7 @@ class Simulation:
             Ids(np.arange(scene.count)), bodies, empty_pairs(PAIRS_PER_BODY * scene.count + 64), empty_ledger(len(WORKS)),
             loads, hits_at_start(case, dt), clock_at_start(), initial_excursions(scene), watch, inflow,
         )  # fmt: skip
-        return cls(case, scene, model, state, dt, critical, span, threads)
+        return cls(case, scene, model, state, dt, critical, span, threads, speed=usual_speed(model, bodies))
 
     @classmethod
     def from_case(cls, case, *, threads: int = 1, **overrides) -> "Simulation":
@@ -208,12 +211,14 @@ class Simulation:
         step, now, begun = int(clock.step[0]), float(clock.time[0]), bool(clock.begun[0])
         since = int(clock.since_step[0]), float(clock.since_time[0])
         steps, count = int(loads.steps[0]), int(windows.count[0])
-        kept = {name: getattr(loads, name).copy() for name in ("window_sum", "window_extreme", "contact_sum", "mode_steps")}
+        kept = {name: getattr(loads, name).copy() for name in ("window_extreme", "contact_sum", "mode_steps")}
+        kept_sum = loads.window_sum.copy()
         clock.begun[0] = 1
         clock.since_step[0], clock.since_time[0] = step, now  # loads that depend on the time are those of now
         status = self._advance(1, dt=0.0)
         clock.step[0], clock.time[0], loads.steps[0], windows.count[0] = step, now, steps, count
         clock.since_step[0], clock.since_time[0] = since
+        loads.window_sum[...] = kept_sum
         if begun:
             for name, values in kept.items():
                 getattr(loads, name)[...] = values
@@ -236,11 +241,16 @@ class Simulation:
         if self.threads > 1:
             share_among(self.crew.now)
         while True:
-            status = Status(advance(*self._arguments(), self.span, goal - int(clock.step[0])))
+            status = Status(advance(*self._arguments(), self.pace, goal - int(clock.step[0])))
             if status != Status.PAIRS_FULL:
                 return status
             self.state.pairs = grown(self.state.pairs, 2 * len(self.state.pairs.a))
             self.make_room()
+
+    @property
+    def pace(self) -> Pace:
+        """How many steps bodies may take in one."""
+        return Pace(self.span, STRIDE_PHASE / self.critical if self.strides else 0.0, self.speed)
 
     def energies(self) -> dict[str, float]:
         """The ledger as `advance` left it, in J: the columns of energy.csv (without time and residual)."""
@@ -263,12 +273,12 @@ class Simulation:
 
     def is_compiled(self) -> bool:
         """Whether machine code of `advance` for this simulation lies on disk."""
-        return is_cached(advance, *self._arguments(), self.span, 1)
+        return is_cached(advance, *self._arguments(), self.pace, 1)
 
     @cached_property
     def _runs_alone(self) -> bool:
         """Whether one of several threads can use the machine code for one, which starts no parallel loops: not worth compiling."""
-        return is_cached(advance, *self._arguments(Alone()), self.span, 1)
+        return is_cached(advance, *self._arguments(Alone()), self.pace, 1)
 
     def _arguments(self, team: Alone | Team | None = None) -> tuple:
         """Of `advance`; team: that of the threads that work now, unless given."""

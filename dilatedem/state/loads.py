@@ -28,11 +28,12 @@ class Loads(NamedTuple):
     """Loads of s records (`state.records`): sums and extremes of the open window, and maps since the start."""
 
     steps: np.ndarray  # (1,) steps in the open window
-    window_sum: np.ndarray  # (s, 6) force N and moment N m, summed over steps
+    window_sum: np.ndarray  # (s, 6) force N and moment N m, summed over steps; zero where a window begins
     window_extreme: np.ndarray  # (s, EXTREMES) N, N m
     contact_sum: np.ndarray  # (s,) contacts, summed over steps
     step_load: np.ndarray  # (s, 6) of this step
     step_contacts: np.ndarray  # (s,) of this step
+    stride_load: np.ndarray  # (s, 6) what the strides that end at this step add to the sums
     impulse_map: np.ndarray  # (maps, PLACE_BINS, HEIGHT_BINS) normal impulse, N s, as `state.charts` lays it out
     crushed: np.ndarray  # (s, 2) m3 of ice that has crushed on it since the start, m of the deepest dent
     mode_steps: np.ndarray  # (2, MODE_COUNT) contact steps, ice on ice and ice on structure
@@ -61,7 +62,7 @@ def empty_loads(records: int, maps: int) -> Loads:
     per_mode = (np.zeros((2, MODE_COUNT)) for _ in range(4))
     return Loads(
         np.zeros(1, np.int64), np.zeros((s, 6)), np.zeros((s, len(EXTREMES))), np.zeros(s, np.int64), np.zeros((s, 6)),
-        np.zeros(s, np.int64), np.zeros((maps, PLACE_BINS, HEIGHT_BINS)), np.zeros((s, 2)), *per_mode,
+        np.zeros(s, np.int64), np.zeros((s, 6)), np.zeros((maps, PLACE_BINS, HEIGHT_BINS)), np.zeros((s, 2)), *per_mode,
     )  # fmt: skip
 
 

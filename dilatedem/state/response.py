@@ -31,6 +31,15 @@ def gives_way(i, solids):
 
 
 @item
+def stride_of(a, b, workspace):
+    """How many steps the stride of two bodies that may touch took which ends at this instant; 0 where none ends.
+
+    Both take it where both move; what stands still comes along at every instant.
+    """
+    return workspace.stride[a] if workspace.island[a] >= 0 else workspace.stride[b]
+
+
+@item
 def point_velocity(velocity, spin, i, lever):
     """Velocity [m/s] of the point of body i at `lever` from its centroid."""
     return add(load(velocity, i), cross(load(spin, i), lever))

@@ -26,9 +26,9 @@ class Workspace(NamedTuple):
     vertex: np.ndarray  # (v, 3) core vertices in world directions, from their body's centroid
     face_normal: np.ndarray  # (f, 3) in world directions
     near: np.ndarray  # (m,) pairs that may touch before all bodies stand at one instant again
-    awake: np.ndarray  # (m,) pairs to evaluate in this step
-    at_structure: np.ndarray  # (m,) those of them with a structure
-    loaded: np.ndarray  # (m,) those of the awake that press hard, behind a load event
+    awake: np.ndarray  # (m,) pairs to evaluate at this instant
+    at_structure: np.ndarray  # (m,) near pairs with a structure
+    loaded: np.ndarray  # (m,) those of the near that press hard, behind a load event
     pushing: np.ndarray  # (n,) floes that push on a structure
     is_pushing: np.ndarray  # (n,) False between two looks
     busy: np.ndarray  # (n,) bodies of near pairs, in order
@@ -36,6 +36,19 @@ class Workspace(NamedTuple):
     is_busy: np.ndarray  # (n,)
     everybody: np.ndarray  # (n,) all bodies, in order
     room: np.ndarray  # (n,) m, how far a body is taken to get at most
+    island: np.ndarray  # (n,) of busy bodies: the first of those that they hang together with; -1 for what stands still
+    last: np.ndarray  # (n,) step at which a busy body is
+    due: np.ndarray  # (n,) step at which it will be next
+    look: np.ndarray  # (n,) step before which the first of an island takes single steps
+    most_steps: np.ndarray  # (n,) how many steps the bodies of an island may take in one
+    stride: np.ndarray  # (n,) how many steps a body has taken in one to this instant, 0 = it is not there
+    due_bodies: np.ndarray  # (n,) busy bodies that are due at this instant, in order
+    looks: np.ndarray  # (1,) counts looks at where strides will bring the bodies
+    looked: np.ndarray  # (n,) the last look at a body
+    position_ahead: np.ndarray  # (n, 3) m, where its stride will bring it
+    orientation_ahead: np.ndarray  # (n, 4)
+    vertex_ahead: np.ndarray  # (v, 3) as `vertex`, then
+    face_normal_ahead: np.ndarray  # (f, 3)
     horizon: np.ndarray  # (n,) m, path at which a body has got farther than it was taken to
     stiffness: np.ndarray  # (n,) 1/s2, of the contacts of a body over what it opposes to them
     instant: np.ndarray  # (1,) counts the instants at which pairs were evaluated
@@ -85,6 +98,19 @@ def make_workspace(shapes, hulls, capacity: int, threads: int, wet_columns: int 
         is_busy=np.zeros(bodies, np.bool_),
         everybody=np.arange(bodies),
         room=np.zeros(bodies),
+        island=np.full(bodies, -1),
+        last=np.zeros(bodies, np.int64),
+        due=np.zeros(bodies, np.int64),
+        look=np.zeros(bodies, np.int64),
+        most_steps=np.zeros(bodies),
+        stride=np.zeros(bodies, np.int64),
+        due_bodies=np.zeros(bodies, np.int64),
+        looks=np.zeros(1, np.int64),
+        looked=np.zeros(bodies, np.int64),
+        position_ahead=np.zeros((bodies, 3)),
+        orientation_ahead=np.zeros((bodies, 4)),
+        vertex_ahead=np.zeros_like(shapes.vertex),
+        face_normal_ahead=np.zeros_like(shapes.face_normal),
         horizon=np.zeros(bodies),
         stiffness=np.zeros(bodies),
         instant=np.zeros(1, np.int64),

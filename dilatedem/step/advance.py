@@ -1,19 +1,21 @@
 """The time step: the whole method on one page."""
 
-from dilatedem.contact.search.neighbours import awake_pairs, find_pairs
+from dilatedem.contact.search.neighbours import awake_pairs, find_pairs, pairs_at_structures
+from dilatedem.contact.sums import sum_on_held
 from dilatedem.contact.tally import close_tally, too_deep
 from dilatedem.jit import kernel, lap
 from dilatedem.motion.carry import carry_structures, push_structures
 from dilatedem.motion.energy import book_energies
 from dilatedem.motion.joined import push_joined
 from dilatedem.motion.paces import foresee
+from dilatedem.motion.strides import choose_strides, next_due, set_out
 from dilatedem.motion.timestep import assembled_frequency
-from dilatedem.state.clock import Status
+from dilatedem.state.clock import NEVER, Status
 from dilatedem.step.crushed import record_crushed
-from dilatedem.step.hits import watch_hits
 from dilatedem.step.launch import collide_pairs, complete_spins, drift_bodies, float_and_kick, longest_path, surprised, tick
+from dilatedem.step.note import note_steps
 from dilatedem.step.stages import COLLIDE, DRIFT, FLOAT, FORESEE, IDLE, RECORD, SEARCH, WAKE
-from dilatedem.structures.record import end_window, load_structures, record_loads
+from dilatedem.structures.record import begin_strides, load_structures
 
 DONE, PAIRS_FULL, TOO_FAST, TOO_DEEP = int(Status.DONE), int(Status.PAIRS_FULL), int(Status.TOO_FAST), int(Status.TOO_DEEP)
 
@@ -21,13 +23,13 @@ DONE, PAIRS_FULL, TOO_FAST, TOO_DEEP = int(Status.DONE), int(Status.PAIRS_FULL),
 @kernel
 def advance(
     team, timer, model, ids, bodies, excursions, pairs, spare, cells, workspace, tally, ledger, loads, windows, hits, log, clock,
-    span, steps,
+    pace, steps,
 ):  # fmt: skip
     """Advance all bodies by up to `steps` steps of `clock.dt`; returns a `Status`, its culprit in `clock`.
 
     The method of Liu, Long & Ji (2015): move, meet, float. Bodies hold positions, velocities and loads of one instant, before and
     after; a step of dt = 0 moves nothing and only evaluates the loads. team: `jit.Alone` or `jit.Team`; timer: `jit.NoTimer`, or
-    `jit.Timer` for benchmarks; span: bodies that nothing can touch take up to so many steps in one, 1 for the plain scheme.
+    `jit.Timer` for benchmarks; pace: `motion.strides.Pace`, how many steps bodies may take in one.
     """
     m, status, goal, dt = model, DONE, clock.step[0] + steps, clock.dt[0]
     while status == DONE and clock.step[0] < goal:
@@ -37,40 +39,53 @@ def advance(
             break
         lap(timer, SEARCH)
         start = clock.step[0]
-        ahead, near, busy, idle = foresee(dt, min(span - start % span, goal - start), model, bodies, pairs, workspace)
+        ahead, near, busy, idle = foresee(dt, min(pace.span - start % pace.span, goal - start), model, bodies, pairs, workspace)
         clock.moves[0] += idle
+        end, noted, at_structure = start + ahead, start, pairs_at_structures(near, m.structure_of, pairs, workspace)
+        set_out(start, near, busy, m.solids, pairs, workspace)
+        choose_strides(start, end, dt, pace, near, workspace.busy, busy, model, bodies, pairs, workspace)
         lap(timer, FORESEE)
-        while clock.step[0] < start + ahead:
-            carry_structures(dt, model, bodies, excursions, clock)
-            if not drift_bodies(team, workspace.busy, busy, dt, model, bodies, pairs, workspace, clock):
+        while True:
+            now, due = next_due(clock.step[0], end, busy, workspace)
+            noted = note_steps(
+                noted, min(now, end + 1) - 1, near, at_structure, dt, model, ids, bodies, pairs, workspace, loads, windows, hits,
+                log,
+            )  # fmt: skip
+            lap(timer, RECORD)
+            if now == NEVER:
+                break
+            begin_strides(at_structure, m.structure_of, bodies, excursions, pairs, workspace, loads)
+            later = now > clock.step[0]
+            if later:
+                carry_structures(dt, model, bodies, excursions, clock)
+            if not drift_bodies(team, workspace.due_bodies, due, dt, model, bodies, pairs, workspace, clock):
                 status = TOO_FAST
                 break
             lap(timer, DRIFT)
-            tick(clock, workspace)
-            clock.moves[0] += busy
-            awake, at_structure = awake_pairs(near, m.structure_of, bodies, pairs, workspace)
+            tick(now, clock, workspace)
+            clock.moves[0] += due
+            awake = awake_pairs(near, bodies, pairs, workspace)
             lap(timer, WAKE)
             collide_pairs(
                 team, awake, dt, m.structure_of, m.shapes, m.solids, m.contact, m.surroundings, bodies, pairs, workspace, tally
             )
             lap(timer, COLLIDE)
             float_and_kick(
-                team, workspace.busy, busy, awake, dt, clock.time[0], m.floating, m.hulls, m.solids, m.loads, bodies, pairs,
+                team, workspace.due_bodies, due, awake, dt, clock.time[0], m.floating, m.hulls, m.solids, m.loads, bodies, pairs,
                 workspace,
             )  # fmt: skip
-            push_joined(dt, model, bodies)
             lap(timer, FLOAT)
             load_structures(at_structure, dt, model, bodies, excursions, pairs, workspace, loads)
-            push_structures(dt, model, bodies, excursions, loads)
+            if later:
+                push_joined(dt, model, bodies)
+                push_structures(dt, model, bodies, excursions, loads)
             record_crushed(m.contact, at_structure, m.structure_of, m.records, pairs, workspace, loads)
-            record_loads(m.records, loads)
-            end_window(clock.step[0], loads, windows)
-            watch_hits(awake, at_structure, dt, clock, m, ids, bodies, pairs, workspace, loads, hits, log)
             if too_deep(tally, pairs, clock):
                 status = TOO_DEEP
             if status != DONE or surprised(team, workspace):
-                break
-            lap(timer, RECORD)
+                end = now  # and the others come to this instant, too
+            choose_strides(now, end, dt, pace, near, workspace.due_bodies, due, model, bodies, pairs, workspace)
+            lap(timer, FORESEE)
         spent = (clock.step[0] - start) * dt
         if not drift_bodies(team, workspace.idle, idle, spent, model, bodies, pairs, workspace, clock):
             status = TOO_FAST
@@ -78,6 +93,7 @@ def advance(
             team, workspace.idle, idle, 0, spent, clock.time[0], m.floating, m.hulls, m.solids, m.loads, bodies, pairs, workspace
         )
         lap(timer, IDLE)
+    sum_on_held(bodies, pairs, model.solids)
     close_tally(tally, ledger, loads, clock)
     complete_spins(model, bodies)
     book_energies(model, bodies, pairs, workspace, ledger)

@@ -13,7 +13,7 @@ from dilatedem.jit import device, item
 from dilatedem.motion.carry import carried_travel
 from dilatedem.motion.integrate import drift, kick
 from dilatedem.motion.paces import LONGEST_MOVE
-from dilatedem.state.response import is_free, is_joined
+from dilatedem.state.response import is_free, is_joined, stride_of
 from dilatedem.step.ahead import fetch_ahead
 from dilatedem.water.loads import body_loads, wet_bodies
 
@@ -26,24 +26,27 @@ def part(count, block, blocks):
 
 @item
 def drift_block(team, chosen, count, dt, shapes, solids, bodies, pairs, workspace, block=0, blocks=1):
-    """Move the bodies of a part; one that moved too far, and whether one has passed its horizon, go to the block's places.
+    """Move the bodies of a part by their strides of steps of dt [s].
+
+    One that moved too far, and whether one has passed its horizon, go to the block's places.
 
     Structures stand where they are; those that move, `motion.carry` has moved before.
     """
     path, horizon = bodies.path, workspace.horizon
-    adrift = dt * sqrt(pairs.frame[0] ** 2 + pairs.frame[1] ** 2)
+    adrift = sqrt(pairs.frame[0] ** 2 + pairs.frame[1] ** 2)
     longest = LONGEST_MOVE * pairs.limit[0]
     fault, leap, surprise = -1, 0.0, False
     first, last = part(count, block, blocks)
     for w in range(first, last):
         i = chosen[w]
-        moved = adrift
+        time = dt * workspace.stride[i]
+        moved = time * adrift
         if is_free(i, solids):
-            moved = drift(i, dt, solids, bodies, shapes.reach[i], pairs.frame)
+            moved = drift(i, time, solids, bodies, shapes.reach[i], pairs.frame)
             if not moved <= longest and fault < 0:  # also where it is no number
                 fault, leap = i, moved
         elif solids.carried[i]:
-            moved = carried_travel(i, dt, bodies.middle_velocity, bodies.middle_angular_velocity, shapes.plan_reach, pairs.frame)
+            moved = carried_travel(i, time, bodies.middle_velocity, bodies.middle_angular_velocity, shapes.plan_reach, pairs.frame)
             if not moved <= longest and fault < 0:
                 fault, leap = i, moved
         path[i] += moved
@@ -65,11 +68,12 @@ def collide_block(
             fetch_ahead(block, w, last, shapes, solids, bodies, pairs, workspace)
             k = workspace.awake[w]
             _turn_shapes(block, k, shapes, bodies.orientation, pairs, workspace)
+            steps = stride_of(pairs.a[k], pairs.b[k], workspace)
             collide(
-                k, dt, shapes, workspace.vertex, workspace.face_normal, solids, bodies, pairs, contact, surroundings,
+                k, dt * steps, shapes, workspace.vertex, workspace.face_normal, solids, bodies, pairs, contact, surroundings,
                 workspace.clip[block],
             )  # fmt: skip
-            book_contact(k, p, dt, structure_of, shapes, contact, pairs, tally)
+            book_contact(k, p, dt, steps, structure_of, shapes, contact, pairs, tally)
 
 
 @item
@@ -90,7 +94,7 @@ def _turn_shapes(block, k, shapes, orientation, pairs, workspace):
 def float_block(
     team, chosen, count, awake, dt, time, floating, hulls, solids, setting, bodies, pairs, workspace, block=0, blocks=1
 ):
-    """All loads on the bodies of a part, and the second half of their kick; dt = 0: the loads alone.
+    """All loads on the bodies of a part, and the second half of the kick of their strides of steps of dt [s]; 0: the loads alone.
 
     Of floes of several parts, which are always busy, `motion.joined` ends the kick.
     """
@@ -104,9 +108,10 @@ def float_block(
         wet_bodies(setting, time, chosen, first, last, hulls, bodies, workspace, block)
     for w in range(first, last):
         i = chosen[w]
-        force, torque = body_loads(i, dt, time, setting, hulls, solids, bodies, workspace.wet)
+        stride = dt * workspace.stride[i]
+        force, torque = body_loads(i, stride, time, setting, hulls, solids, bodies, workspace.wet)
         for m in range(3):
             bodies.force[i, m] = force[m] + bodies.contact_force[i, m]
             bodies.torque[i, m] = torque[m] + bodies.contact_torque[i, m]
-        if dt > 0.0 and is_free(i, solids) and not is_joined(i, solids):
-            kick(i, dt, solids, bodies)
+        if stride > 0.0 and is_free(i, solids) and not is_joined(i, solids):
+            kick(i, stride, solids, bodies)

@@ -34,12 +34,12 @@ LOADED = 0.05
 
 
 @item
-def watch_hits(awake, at_structure, dt, clock, model, ids, bodies, pairs, workspace, loads, hits, log):
-    """Bring this step's loads on the watched structures, the first so many, into their events; `awake` pairs, `at_structure` of
+def watch_hits(step, near, at_structure, dt, model, ids, bodies, pairs, workspace, loads, hits, log):
+    """Bring the loads of a step on the watched structures, the first so many, into their events; `near` pairs, `at_structure` of
     them with a structure. A step of no length is none."""
     if dt == 0.0:
         return
-    step, samples = clock.step[0], hits.recent.shape[1]
+    samples = hits.recent.shape[1]
     for h in range(hits.recent.shape[0]):
         fx, fy = loads.step_load[h, 0], loads.step_load[h, 1]
         force = sqrt(fx * fx + fy * fy)
@@ -59,7 +59,7 @@ def watch_hits(awake, at_structure, dt, clock, model, ids, bodies, pairs, worksp
             counts[LAST], figures[IMPULSE] = step, figures[SUM]
             if force > figures[PEAK]:
                 figures[PEAK], counts[PEAK_STEP], counts[SAMPLES] = force, step, 0
-                _look_closely(h, awake, at_structure, model, ids, bodies, pairs, workspace, hits)
+                _look_closely(h, near, at_structure, model, ids, bodies, pairs, workspace, hits)
         if step == counts[PEAK_STEP] + log.after:
             _keep_history(h, step, hits, log)
         if step == log.end:
@@ -135,7 +135,7 @@ def _is_of(i, h, model):
 
 
 @item
-def _look_closely(h, awake, at_structure, model, ids, bodies, pairs, workspace, hits):
+def _look_closely(h, near, at_structure, model, ids, bodies, pairs, workspace, hits):
     """Note what leads the highest load of an event so far: the contact of the largest normal force, and who pushes behind it."""
     structure_of, leading, most = model.structure_of, -1, 0.0
     for w in range(at_structure):
@@ -150,7 +150,7 @@ def _look_closely(h, awake, at_structure, model, ids, bodies, pairs, workspace, 
     area = contact_area(leading, workspace.vertex, workspace.face_normal, model.shapes, pairs, workspace.clip[0])
     figures[AREA], figures[PRESSURE] = area, most / area if area > 0.0 else 0.0
     figures[CRUSHED] = pairs.crushed[leading]
-    loaded = _loaded_pairs(awake, LOADED * most, pairs, workspace)
+    loaded = _loaded_pairs(near, LOADED * most, pairs, workspace)
     counts[BODIES] = _pushing(h, loaded, model, pairs, workspace)
     if hits.recent.shape[1] > 0:
         _keep_floes(h, ids, bodies, workspace, hits)
@@ -160,11 +160,11 @@ def _look_closely(h, awake, at_structure, model, ids, bodies, pairs, workspace, 
 
 
 @item
-def _loaded_pairs(awake, least, pairs, workspace):
-    """Numbers of the awake pairs whose normal force is `least` [N] or more, to `workspace.loaded`; returns how many."""
+def _loaded_pairs(near, least, pairs, workspace):
+    """Numbers of the near pairs whose normal force is `least` [N] or more, to `workspace.loaded`; returns how many."""
     found = 0
-    for w in range(awake):
-        k = workspace.awake[w]
+    for w in range(near):
+        k = workspace.near[w]
         if pairs.overlap[k] > 0.0 and pairs.normal_force[k] >= least:
             workspace.loaded[found] = k
             found += 1

@@ -13,10 +13,10 @@ from dilatedem.step.blocks import collide_block, drift_block, float_block
 
 
 @item
-def tick(clock, workspace):
-    """A step is done: it is later, and no shape is turned to this instant yet."""
+def tick(step, clock, workspace):
+    """It is the instant of a step, and no shape is turned to it yet."""
     workspace.instant[0] += 1
-    clock.step[0] += 1
+    clock.step[0] = step
     clock.time[0] = clock.since_time[0] + (clock.step[0] - clock.since_step[0]) * clock.dt[0]
 
 

@@ -6,6 +6,7 @@ from dilatedem.jit import device, item
 from dilatedem.numerics.vector import add, cross, load, scale, sub
 from dilatedem.state.charts import Along
 from dilatedem.state.loads import EXTREMES, HEIGHT_BINS, PLACE_BINS
+from dilatedem.state.response import stride_of
 from dilatedem.state.supports import Carried
 
 ANGLE, LINE, HELD = int(Along.ANGLE), int(Along.LINE), int(Carried.HELD)
@@ -17,8 +18,35 @@ FX, FY, FH, ALONG, ACROSS, MX, MY, MZ, MH = map(EXTREMES.index, (
 
 
 @item
+def begin_strides(count, structure_of, bodies, excursions, pairs, workspace, loads):
+    """What the loads of before add to the sums while strides of several steps go on that are about to end.
+
+    In sums over steps a load counts for half of the stride that ends with it and half of the next one, as the kicks of the
+    bodies do: here the latter, less the half step that it has been counted for.
+    """
+    for s in range(len(loads.step_contacts)):
+        for m in range(6):
+            loads.stride_load[s, m] = 0.0
+    for w in range(count):
+        k = workspace.at_structure[w]
+        a, b = pairs.a[k], pairs.b[k]
+        steps = stride_of(a, b, workspace)
+        if steps > 1 and pairs.overlap[k] > 0.0:
+            share, force, couple = 0.5 * (steps - 1), load(pairs.force, k), load(pairs.couple, k)
+            if structure_of[b] >= 0:
+                s, lever = structure_of[b], _lever(structure_of[b], load(bodies.position, b), load(pairs.arm, k), excursions)
+                _add_to(loads.stride_load, s, share, force, couple, lever)
+            if structure_of[a] >= 0:
+                s, lever = structure_of[a], _lever(structure_of[a], load(bodies.position, a), load(pairs.point, k), excursions)
+                _add_to(loads.stride_load, s, -share, force, couple, lever)
+
+
+@item
 def load_structures(count, dt, model, bodies, excursions, pairs, workspace, loads):
-    """Loads of all records at this step, from the awake pairs with a structure, `count` of them."""
+    """Loads of all records at this step, and what they add to the sums of the window.
+
+    From the near pairs with a structure, `count` of them: of those that are not due at this step the load of the last one.
+    """
     structure_of, charts, supports, records = model.structure_of, model.charts, model.supports, model.records
     for s in range(len(loads.step_contacts)):
         loads.step_contacts[s] = 0
@@ -28,46 +56,67 @@ def load_structures(count, dt, model, bodies, excursions, pairs, workspace, load
         k = workspace.at_structure[w]
         if pairs.overlap[k] <= 0.0:
             continue
-        a, b, impulse = pairs.a[k], pairs.b[k], pairs.normal_force[k] * dt
-        force, couple = load(pairs.force, k), load(pairs.couple, k)
+        a, b, steps = pairs.a[k], pairs.b[k], stride_of(pairs.a[k], pairs.b[k], workspace)
+        force, couple, impulse = load(pairs.force, k), load(pairs.couple, k), pairs.normal_force[k] * (dt * steps)
         if structure_of[b] >= 0:
             _load_structure(
-                structure_of[b], load(bodies.position, b), load(pairs.arm, k), force, couple, impulse, charts, supports,
+                structure_of[b], load(bodies.position, b), load(pairs.arm, k), force, couple, steps, impulse, charts, supports,
                 excursions, loads,
             )  # fmt: skip
         if structure_of[a] >= 0:
             force, couple = scale(-1.0, force), scale(-1.0, couple)
             _load_structure(
-                structure_of[a], load(bodies.position, a), load(pairs.point, k), force, couple, impulse, charts, supports,
+                structure_of[a], load(bodies.position, a), load(pairs.point, k), force, couple, steps, impulse, charts, supports,
                 excursions, loads,
             )  # fmt: skip
     for t in range(len(records.total)):
-        _add_up(records.total[t], records.start[t], records.start[t + 1], records.member, excursions.center, loads)
+        row, first, last = records.total[t], records.start[t], records.start[t + 1]
+        for w in range(first, last):
+            loads.step_contacts[row] += loads.step_contacts[records.member[w]]
+        _add_up(row, first, last, records.member, excursions.center, loads.step_load)
+        _add_up(row, first, last, records.member, excursions.center, loads.stride_load)
+    for s in range(len(loads.step_contacts)):
+        for m in range(6):
+            loads.window_sum[s, m] += loads.stride_load[s, m]
 
 
 @item
-def _add_up(row, first, last, member, center, loads):
-    """The load of a row as the sum of those of member[first:last], its moment about its own centre."""
+def _add_up(row, first, last, member, center, sums):
+    """The load of a row of `sums` (s, 6) as the sum of those of member[first:last], its moment about its own centre."""
     for w in range(first, last):
         s = member[w]
-        force = load(loads.step_load, s)
+        force = load(sums, s)
         moment = cross(sub(load(center, s), load(center, row)), force)
-        loads.step_contacts[row] += loads.step_contacts[s]
         for m in range(3):
-            loads.step_load[row, m] += force[m]
-            loads.step_load[row, 3 + m] += loads.step_load[s, 3 + m] + moment[m]
+            sums[row, m] += force[m]
+            sums[row, 3 + m] += sums[s, 3 + m] + moment[m]
 
 
 @item
-def _load_structure(s, position, arm, force, couple, impulse, charts, supports, excursions, loads):
-    """Add a contact to the load and the map of structure s, at `arm` from one of its bodies, which is at `position`."""
-    # moments are about the structure's centre, where it is now
-    lever = add(arm, sub(position, load(excursions.center, s)))
+def _lever(s, position, arm, excursions):
+    """From the centre of structure s, where it is now, to `arm` from one of its bodies, which is at `position`."""
+    return add(arm, sub(position, load(excursions.center, s)))
+
+
+@item
+def _add_to(sums, s, share, force, couple, lever):
+    """Add a share of a contact's force and of its moment to row s of `sums`."""
     moment = add(couple, cross(lever, force))
-    loads.step_contacts[s] += 1
     for m in range(3):
-        loads.step_load[s, m] += force[m]
-        loads.step_load[s, 3 + m] += moment[m]
+        sums[s, m] += share * force[m]
+        sums[s, 3 + m] += share * moment[m]
+
+
+@item
+def _load_structure(s, position, arm, force, couple, steps, impulse, charts, supports, excursions, loads):
+    """Add a contact to the load and the map of structure s, at `arm` from one of its bodies, which is at `position`; steps: of the
+    stride that has just ended, 0 for a contact that is in the middle of one."""
+    lever = _lever(s, position, arm, excursions)
+    loads.step_contacts[s] += 1
+    _add_to(loads.step_load, s, 1.0, force, couple, lever)
+    if steps == 0:
+        return
+    _add_to(loads.stride_load, s, 0.5 * (steps + 1), force, couple, lever)
     if charts.map[s] < 0:
         return
     height, axis = position[2] + arm[2], load(charts.axis, s)
@@ -117,12 +166,10 @@ def place_on_outline(outline, first, last, x, y):
 
 @item
 def record_loads(records, loads):
-    """Add this step's loads to the open window: sums and extremes."""
+    """Bring this step's loads into the extremes of the open window."""
     first = loads.steps[0] == 0
     loads.steps[0] += 1
     for s in range(len(loads.step_contacts)):
-        for m in range(6):
-            loads.window_sum[s, m] = loads.step_load[s, m] + (0.0 if first else loads.window_sum[s, m])
         loads.contact_sum[s] = loads.step_contacts[s] + (0 if first else loads.contact_sum[s])
         _widen(s, first, records.flow, loads.step_load, loads.window_extreme)
 
@@ -166,6 +213,7 @@ def end_window(step, loads, windows):
         windows.contacts[w, s] = loads.contact_sum[s]
         for m in range(6):
             windows.sum[w, s, m] = loads.window_sum[s, m]
+            loads.window_sum[s, m] = 0.0
         for m in range(EXTREME_COUNT):
             windows.extreme[w, s, m] = loads.window_extreme[s, m]
     windows.count[0] += 1

@@ -10,7 +10,7 @@ from math import sqrt
 from dilatedem.jit import device, item
 from dilatedem.numerics.vector import dot, load, sub
 from dilatedem.state.pairs import KEPT, ROW
-from dilatedem.state.response import are_joined, is_free
+from dilatedem.state.response import are_joined, is_free, stride_of
 
 #: distance at which pairs enter the list, in units of the largest reach of a floating body. Larger: fewer rebuilds, longer list
 SKIN = 0.25
@@ -195,20 +195,26 @@ def _start_paths(bodies, floating, pairs, surroundings, skin):
 
 
 @item
-def awake_pairs(count, structure_of, bodies, pairs, workspace):
-    """Numbers of those of the `count` near pairs whose gap may have closed, to `workspace.awake`; returns how many.
+def pairs_at_structures(count, structure_of, pairs, workspace):
+    """Numbers of those of the `count` near pairs that a structure is part of, to `workspace.at_structure`; returns how many."""
+    found = 0
+    for w in range(count):
+        k = workspace.near[w]
+        if structure_of[pairs.a[k]] >= 0 or structure_of[pairs.b[k]] >= 0:
+            workspace.at_structure[found] = k
+            found += 1
+    return found
 
-    Those with a structure also go to `workspace.at_structure`, their number is returned second.
-    """
-    found = at_structure = 0
+
+@item
+def awake_pairs(count, bodies, pairs, workspace):
+    """Numbers of those of the `count` near pairs that are due and may have closed, to `workspace.awake`; returns how many."""
+    found = 0
     path, near, awake = bodies.path, workspace.near, workspace.awake
     for w in range(count):
         k = near[w]
         a, b = pairs.a[k], pairs.b[k]
-        if path[a] + path[b] >= pairs.wake[k]:
+        if path[a] + path[b] >= pairs.wake[k] and stride_of(a, b, workspace) > 0:
             awake[found] = k
             found += 1
-            if structure_of[b] >= 0 or structure_of[a] >= 0:
-                workspace.at_structure[at_structure] = k
-                at_structure += 1
-    return found, at_structure
+    return found
