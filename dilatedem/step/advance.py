@@ -14,7 +14,7 @@ from dilatedem.state.clock import NEVER, Status
 from dilatedem.step.crushed import record_crushed
 from dilatedem.step.launch import collide_pairs, complete_spins, drift_bodies, float_and_kick, longest_path, surprised, tick
 from dilatedem.step.note import note_steps
-from dilatedem.step.stages import COLLIDE, DRIFT, FLOAT, FORESEE, IDLE, RECORD, SEARCH, WAKE
+from dilatedem.step.stages import COLLIDE, DRIFT, FLOAT, FORESEE, IDLE, RECORD, SEARCH, STRIDE, WAKE
 from dilatedem.structures.record import begin_strides, load_structures
 
 DONE, PAIRS_FULL, TOO_FAST, TOO_DEEP = int(Status.DONE), int(Status.PAIRS_FULL), int(Status.TOO_FAST), int(Status.TOO_DEEP)
@@ -51,7 +51,7 @@ def advance(
                 noted, min(now, end + 1) - 1, near, at_structure, dt, model, ids, bodies, pairs, workspace, loads, windows, hits,
                 log,
             )  # fmt: skip
-            lap(timer, RECORD)
+            lap(timer, STRIDE)
             if now == NEVER:
                 break
             begin_strides(at_structure, m.structure_of, bodies, excursions, pairs, workspace, loads)
@@ -84,8 +84,8 @@ def advance(
                 status = TOO_DEEP
             if status != DONE or surprised(team, workspace):
                 end = now  # and the others come to this instant, too
+            lap(timer, RECORD)
             choose_strides(now, end, dt, pace, near, workspace.due_bodies, due, model, bodies, pairs, workspace)
-            lap(timer, FORESEE)
         spent = (clock.step[0] - start) * dt
         if not drift_bodies(team, workspace.idle, idle, spent, model, bodies, pairs, workspace, clock):
             status = TOO_FAST

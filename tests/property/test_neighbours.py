@@ -5,6 +5,7 @@ import pytest
 
 from dilatedem.case.schema import Case
 from dilatedem.jit import Alone, NoTimer
+from dilatedem.motion.strides import Pace
 from dilatedem.run.simulation import Simulation
 from dilatedem.state.ledger import empty_ledger
 from dilatedem.state.pairs import empty_pairs
@@ -45,7 +46,7 @@ def test_no_contact_is_missed(boundary):
         status = advance(
             Alone(), NoTimer(), simulation.model, state.ids, copies, state.excursions, fresh, empty_pairs(len(fresh.a)),
             simulation.cells, workspace, empty_tally(), empty_ledger(), loads, simulation.windows, state.hits, simulation.log,
-            clock, 1, 1,
+            clock, Pace(1, 0.0, 0.0), 1,
         )  # fmt: skip
         assert status == 0
         anew = open_contacts(fresh)

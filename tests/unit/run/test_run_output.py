@@ -12,7 +12,7 @@ import pytest
 
 from dilatedem.case.load import load
 from dilatedem.output.schedule import Schedule
-from dilatedem.run import loop, observers
+from dilatedem.run import loop, observers, simulation
 from dilatedem.run.ending import total_steps
 from dilatedem.run.simulation import Simulation
 from dilatedem.state.clock import Status
@@ -34,8 +34,11 @@ def table(path: Path) -> dict[str, np.ndarray]:
 
 @pytest.fixture(scope="module")
 def short_run(tmp_path_factory) -> Path:
+    """Of single steps, so that it can be told step by step (tests/unit/motion/test_strides.py looks at longer ones)."""
     case = load(CROWDED, [f"time.duration={CLOSE_LOOK}"])
-    return loop.run(case, tmp_path_factory.mktemp("short") / "run", quiet=True)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(simulation, "STRIDE_PHASE", 0.0)
+        return loop.run(case, tmp_path_factory.mktemp("short") / "run", quiet=True)
 
 
 @pytest.fixture(scope="module")
