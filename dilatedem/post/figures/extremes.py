@@ -10,7 +10,7 @@ from scipy import stats
 from dilatedem.post.ensembles.laws import Extremes
 from dilatedem.post.ensembles.study import Ensemble, Study
 from dilatedem.post.figures.canvas import BLACK, BLUE, GREEN, ORANGE, SKY, VERMILION, Drawing, file_name, new_figure, styled
-from dilatedem.post.figures.sweep import setting_words
+from dilatedem.post.figures.sweep import setting_words, turns
 from dilatedem.post.labels import number
 from dilatedem.statistics import Band, Gumbel, Pareto, fit_gumbel, growth, needed
 from dilatedem.statistics.gumbel import plotting_places, reduced
@@ -38,7 +38,8 @@ def extremes_figure(study: Study, ensemble: Ensemble, structure: str, laws: Extr
     draw_excess(panels[1, 0], laws)
     draw_growth(panels[1, 1], laws.maxima, study.noun)
     figure.legend(*panels[0, 0].get_legend_handles_labels(), loc="outside lower center", ncols=4)
-    setting = setting_words(ensemble.values, study.sweep.keys)
+    keys = study.sweep.keys
+    setting = setting_words(ensemble.values, keys, turning=[key for key in keys if turns(study, key)])
     title = f"Rare loads on {structure}" + (f", {setting}" if setting else "")
     name = f"extremes_{file_name(structure)}" + (f"_{place:02d}" if len(study.ensembles) > 1 else "")
     return Drawing(name, title, caption(study, laws), figure)

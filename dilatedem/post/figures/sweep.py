@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Collection
 from typing import Any
 
 import numpy as np
@@ -66,12 +67,16 @@ def direction(velocity: list[float]) -> float | None:
     return round(math.degrees(math.atan2(velocity[1], velocity[0])), 6) % 360.0 if any(velocity[:2]) else None
 
 
-def setting_words(values: dict[str, Any], keys: list[str]) -> str:
-    """The values of these keys, for the legend."""
+def setting_words(values: dict[str, Any], keys: list[str], turning: Collection[str] = ()) -> str:
+    """The values of these keys, for the legend; of those that are `turning` velocities both components in each case."""
     words = []
     for key in keys:
         what, unit = describe_key(key)
-        words.append(f"{what} {value_words(key, values[key])} {unit}".rstrip())
+        if key in turning:
+            what, value = what.replace("speed", "along x, along y"), vector_words(values[key])
+        else:
+            value = value_words(key, values[key])
+        words.append(f"{what} {value} {unit}".rstrip())
     return ", ".join(words)
 
 

@@ -9,7 +9,7 @@ from dilatedem.errors import CaseError
 from dilatedem.post import info
 from dilatedem.post.ensembles.study import study
 from dilatedem.post.ensembles.sweeps import axis_value, compare_runs, read_sweep
-from dilatedem.post.figures.sweep import places, sweep_figure
+from dilatedem.post.figures.sweep import places, setting_words, sweep_figure
 from dilatedem.post.folders import post_sweep
 from dilatedem.post.labels import axis_label, flatten, number, show
 from dilatedem.post.read import open_run
@@ -125,3 +125,10 @@ def test_words_and_numbers():
     assert show([True, None, 1.5]) == "yes, –, 1.5"
     flat = flatten({"a": {"b": 1, "c": [1, 2]}, "structure": [{"name": "pile"}]})
     assert flat == {"a.b": 1, "a.c": [1, 2], "structure.0.name": "pile"}
+
+
+def test_a_velocity_that_turns_has_both_components_in_a_title():
+    values = {"water.velocity": [0.3, 0.0], "field.floe_size": 2.0}
+    both = setting_words(values, list(values), turning=["water.velocity"])
+    assert both == "current along x, along y 0.3, 0 m/s, mean floe size 2 m"
+    assert setting_words(values, list(values)) == "current speed 0.3 m/s, mean floe size 2 m"
