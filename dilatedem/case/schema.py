@@ -243,9 +243,6 @@ class Case(Table):
         closed = ("periodic", "wall")
         if self.field.front == "ragged" and self.domain.x_boundary in closed and self.domain.y_boundary in closed:
             return [(("field", "front"), 'must be "straight" where no side is open: ice ends nowhere')]
-        if self.water.added_mass and self.field.source == "file" and self.field.not_convex == "parts":
-            text = 'must be false where floes may be of several parts; or take field.not_convex = "hull"'
-            return [(("water", "added_mass"), text)]
         return []
 
     def _until_faults(self) -> list[Fault]:

@@ -6,7 +6,12 @@ Of a thin disc with the same plan area, a = sqrt(A/pi): M = 4/3 rho_w a^3, J = 8
 from math import pi, sqrt
 
 import numpy as np
+import pytest
 
+from dilatedem.case.schema import Case
+from dilatedem.field import survey
+from dilatedem.field.partition import Part
+from dilatedem.run.simulation import Simulation
 from tests.verification.comparison import Comparison, check, follow, start, zero_crossings
 
 CASE = "added_mass"
@@ -55,3 +60,50 @@ def test_added_mass():
 def test_targets_of_the_specification():
     targets = [heave(*box, added) for box in BOXES for added in (0.0, 1.0)]
     assert [round(target, 4) for target in targets] == [1.3402, 2.12, 1.8954, 3.6371]
+
+
+def cut(pieces: tuple[int, int]):
+    """Cuts a square into so many rectangles along x and y, as if it were not convex."""
+
+    def parts(polygon) -> list[Part]:
+        low, high = np.array(polygon.bounds[:2]), np.array(polygon.bounds[2:])
+        size = (high - low) / pieces
+        found = []
+        for column, row in np.ndindex(pieces):
+            corners = low + size * ([column, row] + np.array([[0, 0], [1, 0], [1, 1], [0, 1]]))
+            sides = np.stack([corners, np.roll(corners, -1, axis=0)], axis=1)
+            middle = sides.mean(axis=1)
+            within = ((middle > low + 1e-9) & (middle < high - 1e-9)).all(axis=1)
+            found.append(Part(corners, sides[within]))
+        return found
+
+    return parts
+
+
+def squares(tmp_path) -> Simulation:
+    """The smaller box as a floe of a file, in still water without drag."""
+    rows = ["floe,x,y"]
+    rows += [f"0,{0.5 * x * BOXES[0][0]},{0.5 * y * BOXES[0][0]}" for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
+    (tmp_path / "floes.csv").write_text("\n".join(rows))
+    return Simulation.of_case(Case.model_validate({
+        "domain": {"size": [80.0, 40.0]}, "ice": {"dilated_radius": 1e-4}, "contact": {"damping": 0.0},
+        "field": {"source": "file", "file": str(tmp_path / "floes.csv"), "tolerance": 0.0},
+        "water": {"velocity": [0.0, 0.0], "drag_force_coefficient": 0.0, "drag_moment_coefficient": 0.0, "added_mass": True},
+    }))  # fmt: skip
+
+
+@pytest.mark.parametrize("pieces", [(2, 1), (2, 2)])
+def test_a_floe_cut_into_parts_takes_along_what_it_does_uncut(pieces, monkeypatch, tmp_path):
+    whole = squares(tmp_path).model.solids
+    monkeypatch.setattr(survey, "_whole", cut(pieces))
+    simulation = squares(tmp_path)
+    solids = simulation.model.solids
+    assert simulation.model.floating == pieces[0] * pieces[1] and simulation.model.joined.tolist() == [[0, pieces[0] * pieces[1]]]
+    for name in ("inverse_mass", "inverse_heave_mass", "inertia", "inverse_inertia"):
+        found, asked = getattr(solids, name), getattr(whole, name)
+        assert np.abs(found - asked[0]).max() < 1e-3 * np.abs(asked[0]).max(), name
+    for name in ("added_mass", "added_inertia"):
+        assert getattr(solids, name).sum(axis=0) == pytest.approx(getattr(whole, name)[0], rel=1e-3)
+    stiffness = WATER * GRAVITY * simulation.model.hulls.plan[:, 0].sum()
+    for part in range(simulation.model.floating):
+        assert 2 * pi / sqrt(solids.inverse_heave_mass[part] * stiffness) == pytest.approx(heave(*BOXES[0], 1.0), rel=1e-3)
