@@ -37,10 +37,8 @@ class Domain(Table):
         return []
 
 
-def inflow_faults(
-    domain: Domain, field: IceField, thickness_spread: float, drift: tuple[float, float, float], key: str
-) -> list[Fault]:
-    """Ice can enter where it is made of random points, of one thickness, and drifts along one axis.
+def inflow_faults(domain: Domain, field: IceField, drift: tuple[float, float, float], key: str) -> list[Fault]:
+    """Ice can enter where it is made by a recipe, and drifts along one axis.
 
     drift [m/s]: velocity of ice that enters, which the key `key` gives.
     """
@@ -49,12 +47,7 @@ def inflow_faults(
         return []
     where, along, across = ("domain", f"{'xy'[axis]}_boundary"), "xy"[axis], "xy"[1 - axis]
     if field.source != "voronoi":
-        return [(where, 'needs ice that is made by a recipe: field.source must be "voronoi"')]
-    special = {"field.shape": field.shape != "voronoi", "field.regularity": field.regularity > 0,
-               "field.size_distribution": field.size_distribution is not None, "field.front": field.front != "straight",
-               "ice.thickness_spread": thickness_spread > 0.0}  # fmt: skip
-    if given := [name for name, is_given in special.items() if is_given]:
-        return [(where, f"takes ice of random points and of one thickness: {', '.join(given)} must be left out")]
+        return [(where, 'needs ice that is made by a recipe, without an end: field.source must be "voronoi"')]
     if drift[axis] == 0.0:
         return [(where, f"needs ice that drifts along {along}, so that one side is upstream; {key} has 0 there")]
     if drift[1 - axis] != 0.0 and domain.boundaries[1 - axis] != "periodic":

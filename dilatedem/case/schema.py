@@ -188,7 +188,7 @@ class Case(Table):
     def faults(self) -> list[Fault]:
         found = [*name_faults(self.structure, self.body), *self._body_faults(), *self._track_faults(), *self._check_faults()]
         drift = "water.velocity" if self.ice.initial_velocity == "current" else "ice.initial_velocity"
-        found += inflow_faults(self.domain, self.field, self.ice.thickness_spread, self.ice_velocity, drift)
+        found += inflow_faults(self.domain, self.field, self.ice_velocity, drift)
         found += wave_faults(self.wave, self.water.enabled, self.gravity.acceleration)
         return [*found, *self._field_faults(), *self._until_faults()]
 
@@ -240,7 +240,7 @@ class Case(Table):
         return []
 
     def _field_faults(self) -> list[Fault]:
-        closed = ("periodic", "wall")
+        closed = ("periodic", "wall", "inflow")
         if self.field.front == "ragged" and self.domain.x_boundary in closed and self.domain.y_boundary in closed:
             return [(("field", "front"), 'must be "straight" where no side is open: ice ends nowhere')]
         return []

@@ -13,6 +13,7 @@ from dilatedem.events.repack import joined, of_rows
 from dilatedem.field.placement import touching_obstacles
 from dilatedem.motion.timestep import critical_step
 from dilatedem.scene.entering import Newcomers
+from dilatedem.scene.ice import varied
 from dilatedem.scene.inflow import LOOK, drift_speed, entrance
 from dilatedem.scene.recipe import periodic_axes
 from dilatedem.state.bodies import Bodies
@@ -35,7 +36,8 @@ class Inflow(Event):
         self._speed, self._entrance = drift_speed(case), entrance(case)
         self._share = max(LARGEST_SHARE, simulation.dt / simulation.critical)
         still = [structure for structure in case.structure if not structure.support.moves]
-        self._obstacles = [obstacle for structure in still for obstacle in structure.obstacles(case.ice.thickness)]
+        thickest = float(varied(case, simulation.entering.stream.count).max())
+        self._obstacles = [obstacle for structure in still for obstacle in structure.obstacles(thickest)]
 
     def happen(self, simulation) -> bool:
         inflow, before = simulation.state.inflow, simulation.state.ids
@@ -74,7 +76,7 @@ class Inflow(Event):
         """Put a strip where the drift has brought it; returns whether there was room."""
         case, stream, inflow = simulation.case, simulation.entering.stream, simulation.state.inflow
         shift, across = stream.course.along(-self._way(simulation)), 1 - stream.course.axis
-        if stream.course.across:
+        if periodic_axes(case)[across]:
             period = case.domain.size[across]
             shift[across] = np.remainder(case.ice_velocity[across] * simulation.time_s, period)
             shift[across] -= period * round(shift[across] / period)

@@ -55,57 +55,124 @@ def nuclei_of_areas(
 
     Points move to the middles of their cells SETTLING + `regularity` times before. Raises ValueError where that cannot be.
     """
+    points, weights = settled(points, areas, size, periodic, regularity)
+    return points, weights_of_areas(points, weights, areas, size, periodic)
+
+
+def settled(
+    points: np.ndarray, areas: np.ndarray, size: np.ndarray, periodic: Sequence[bool], regularity: int
+) -> tuple[np.ndarray, np.ndarray]:
+    """The same points after they have moved, and weights with which their cells have about those areas."""
     weights = np.zeros(len(points))
     for _ in range(SETTLING + regularity):
         weights, diagram = _fitted(points, weights, areas, size, periodic, NEARLY)
         points = centroids(Outlines(diagram.corners, diagram.start), size, periodic)
-    return points, _fitted(points, weights, areas, size, periodic, EXACT)[0]
+    return points, weights
 
 
-def cells_of_weights(points: np.ndarray, weights: np.ndarray, size: np.ndarray, periodic: Sequence[bool]) -> Outlines:
-    """The cells of points (n, 2) [m] in the domain with `weights` (n,) [m2], as outlines. Raises ValueError for an empty one."""
-    diagram = power_diagram(points, weights, size, periodic)
-    if empty := int(np.count_nonzero(diagram.area <= 0.0)):
-        raise ValueError(f"{empty} of {len(points)} cells are empty")
+def weights_of_areas(
+    points: np.ndarray,
+    weights: np.ndarray,
+    areas: np.ndarray,
+    size: np.ndarray,
+    periodic: Sequence[bool],
+    free: np.ndarray | None = None,
+) -> np.ndarray:
+    """(n,) [m2] the weights with which cells have `areas` (n,) [m2]; `weights`: a first guess.
+
+    free (n,): whose weights are sought, and whose areas are met, the others held as they are given; None: of all.
+    """
+    return _fitted(points, weights, areas, size, periodic, EXACT, free)[0]
+
+
+def cells_of_weights(
+    points: np.ndarray, weights: np.ndarray, size: np.ndarray, periodic: Sequence[bool], first: int | None = None
+) -> Outlines:
+    """The cells of points (n, 2) [m] in the domain with `weights` (n,) [m2], as outlines; first: of so many points alone.
+
+    Raises ValueError for an empty one.
+    """
+    diagram, count = power_diagram(points, weights, size, periodic), len(points) if first is None else first
+    if empty := int(np.count_nonzero(diagram.area[:count] <= 0.0)):
+        raise ValueError(f"{empty} of {count} cells are empty")
     spacing = float(np.sqrt(np.prod(size) / len(points)))
-    return distinct_corners(on_sides(diagram.corners, size, periodic, spacing), diagram.start, spacing)
+    start = diagram.start[: count + 1]
+    return distinct_corners(on_sides(diagram.corners[: start[-1]], size, periodic, spacing), start, spacing)
 
 
 def _fitted(
-    points: np.ndarray, weights: np.ndarray, areas: np.ndarray, size: np.ndarray, periodic: Sequence[bool], tolerance: float
+    points: np.ndarray,
+    weights: np.ndarray,
+    areas: np.ndarray,
+    size: np.ndarray,
+    periodic: Sequence[bool],
+    tolerance: float,
+    free: np.ndarray | None = None,
 ) -> tuple[np.ndarray, Diagram]:
-    """Weights for which each cell has its area, to `tolerance` of it, and the cells; `weights`: a first guess."""
-    diagram = power_diagram(points, weights, size, periodic)
-    if diagram.area.min() <= 0.0:  # of Voronoi's diagram no cell is empty
-        weights = np.zeros(len(points))
-        diagram = power_diagram(points, weights, size, periodic)
-    least = 0.5 * min(diagram.area.min(), areas.min())
+    """Weights for which each cell that is `free` has its area, to `tolerance` of it, and the cells; `weights`: a first guess."""
+    weights, diagram = _begun(points, weights, areas, size, periodic, free)
+    asked = slice(None) if free is None else free
+    least = 0.5 * min(diagram.area[asked].min(), areas.min())
     for _ in range(MOST_STEPS):
-        lack = areas - diagram.area
+        lack = _lack(areas, diagram, free)
         if (np.abs(lack) <= tolerance * areas).all():
             break
-        step, share = _solution(diagram, lack), 1.0
+        step, share = _solution(diagram, lack, free), 1.0
         while share > EXACT:
             tried = weights + share * step
             attempt = power_diagram(points, tried, size, periodic)
-            if attempt.area.min() >= least and norm(areas - attempt.area) <= (1.0 - 0.5 * share) * norm(lack):
+            if attempt.area[asked].min() >= least and norm(_lack(areas, attempt, free)) <= (1.0 - 0.5 * share) * norm(lack):
                 break
             share *= 0.5
         else:  # round-off: it comes no nearer
             break
-        weights, diagram = tried - tried.mean(), attempt
+        weights, diagram = tried - tried.mean() if free is None else tried, attempt
     return weights, diagram
 
 
-def _solution(diagram: Diagram, lack: np.ndarray) -> np.ndarray:
-    """Changes of the weights [m2] that make up for areas `lack` (n,) [m2], to first order: by conjugate gradients."""
+def _begun(
+    points: np.ndarray, weights: np.ndarray, areas: np.ndarray, size: np.ndarray, periodic: Sequence[bool], free: np.ndarray | None
+) -> tuple[np.ndarray, Diagram]:
+    """A first guess of which no cell that is `free` is empty, and its cells."""
+    diagram = power_diagram(points, weights, size, periodic)
+    if free is None and diagram.area.min() <= 0.0:  # of Voronoi's diagram no cell is
+        weights = np.zeros(len(points))
+        return weights, power_diagram(points, weights, size, periodic)
+    for _ in range(MOST_STEPS):
+        empty = [] if free is None else np.flatnonzero(free & (diagram.area <= 0.0))
+        if not len(empty):
+            break
+        weights = weights.copy()
+        for i in empty:  # so much that its point, and some place around, is its own
+            away = points - points[i]
+            away -= np.where(periodic, size * np.round(away / size), 0.0)
+            power = dot(away, away) - weights
+            power[i] = np.inf
+            weights[i] = areas[i] / (4.0 * np.pi) - power.min()
+        diagram = power_diagram(points, weights, size, periodic)
+    return weights, diagram
+
+
+def _lack(areas: np.ndarray, diagram: Diagram, free: np.ndarray | None) -> np.ndarray:
+    """(n,) [m2] what cells lack of their areas; of those that are held nothing is asked."""
+    return areas - diagram.area if free is None else np.where(free, areas - diagram.area, 0.0)
+
+
+def _solution(diagram: Diagram, lack: np.ndarray, free: np.ndarray | None) -> np.ndarray:
+    """Changes of the weights [m2] that make up for areas `lack` (n,) [m2], to first order: by conjugate gradients.
+
+    Of those that are `free` alone, where others are held: what a change takes from these is theirs to bear.
+    """
     count = len(lack)
     diagonal = np.bincount(diagram.first, diagram.coupling, count)
+    if free is not None:
+        diagonal[~free] = 1.0  # where they lie in belts of others, they may even be empty
 
     def gained(weights: np.ndarray) -> np.ndarray:
-        return diagonal * weights - np.bincount(diagram.first, diagram.coupling * weights[diagram.second], count)
+        gain = diagonal * weights - np.bincount(diagram.first, diagram.coupling * weights[diagram.second], count)
+        return gain if free is None else np.where(free, gain, 0.0)
 
-    change, rest = np.zeros(count), lack - lack.mean()
+    change, rest = np.zeros(count), lack - lack.mean() if free is None else lack
     eased = rest / diagonal
     direction, product = eased, float(dot(rest, eased))
     limit = SOLVED * float(norm(rest))

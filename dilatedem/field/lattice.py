@@ -1,4 +1,7 @@
-"""Points of a lattice, whose cells are squares or hexagons: as nearly as whole numbers of them fit into a domain."""
+"""Points of a lattice, whose cells are squares or hexagons: as nearly as whole numbers of them fit into a domain.
+
+Where they lie is told in parts of the domain's `size`, from its lower left corner.
+"""
 
 from collections.abc import Sequence
 
@@ -9,10 +12,10 @@ HEXAGON = 0.5 * 3.0**0.5
 
 
 def squares(size: np.ndarray, count: int, periodic: Sequence[bool]) -> np.ndarray:
-    """(n, 2) [m] middles of some `count` cells of a domain of `size` (2,) [m] about the origin, in rows and columns."""
+    """(n, 2) middles of some `count` cells of a domain of `size` (2,) [m], in rows and columns."""
     pitch = float(np.sqrt(np.prod(size) / count))
     columns, rows = (max(1, round(float(length) / pitch)) for length in size)
-    return _points(size, columns, rows, 0.0)
+    return _places(columns, rows, 0.0)
 
 
 def hexagons(size: np.ndarray, count: int, periodic: Sequence[bool]) -> np.ndarray:
@@ -24,11 +27,11 @@ def hexagons(size: np.ndarray, count: int, periodic: Sequence[bool]) -> np.ndarr
     even = 2 if periodic[0] else 1
     columns = even * max(1, round(float(size[0]) / (even * HEXAGON * pitch)))
     rows = max(1, round(count / columns))
-    return _points(size, columns, rows, 0.25)
+    return _places(columns, rows, 0.25)
 
 
-def _points(size: np.ndarray, columns: int, rows: int, shift: float) -> np.ndarray:
+def _places(columns: int, rows: int, shift: float) -> np.ndarray:
     """Middles of a grid, its columns shifted by `shift` cells up and down in turn."""
     column, row = (axis.ravel() for axis in np.meshgrid(np.arange(columns), np.arange(rows), indexing="ij"))
     along = row + 0.5 + shift * np.where(column % 2 == 0, 1.0, -1.0)
-    return np.column_stack([(column + 0.5) / columns - 0.5, along / rows - 0.5]) * size
+    return np.column_stack([(column + 0.5) / columns, along / rows])

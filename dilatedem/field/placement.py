@@ -17,7 +17,7 @@ import shapely
 from numpy.typing import ArrayLike
 
 from dilatedem.field.obstacles import Disk, HalfPlane, Obstacle
-from dilatedem.field.recipe import Recipe
+from dilatedem.field.recipe import PLAIN, Recipe
 from dilatedem.geometry import outline as plan
 from dilatedem.geometry.polyhedron import Polyhedron
 from dilatedem.numerics.blocks import place
@@ -27,8 +27,6 @@ from dilatedem.numerics.root import bracketed_root
 # A floe whose core vanishes when it is made smaller by this part counts as too small.
 VANISHING = 1e-12
 EPSILON = float(np.finfo(float).eps)
-#: cells of random points
-PLAIN = Recipe()
 
 
 Groups = list[tuple[np.ndarray, np.ndarray]]  # cells (m,) of n sides and their corners (m, n, 2), for each n

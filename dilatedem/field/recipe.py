@@ -26,11 +26,22 @@ class Nuclei:
     points: np.ndarray
     weights: np.ndarray | None = None
 
-    def cells(self, size: np.ndarray, periodic: Sequence[bool]) -> Outlines:
-        """Their cells, which fill a domain of `size` (2,) [m] about the origin."""
-        if self.weights is None:
-            return cells_of_points(self.points, size, periodic)
-        return cells_of_weights(self.points, self.weights, size, periodic)
+    def cells(self, size: np.ndarray, periodic: Sequence[bool], first: int | None = None) -> Outlines:
+        """Their cells, which fill a domain of `size` (2,) [m] about the origin; first: of so many nuclei alone."""
+        if self.weights is not None:
+            return cells_of_weights(self.points, self.weights, size, periodic, first)
+        cells = cells_of_points(self.points, size, periodic)
+        return cells if first is None else cells.where(np.arange(len(cells)) < first)
+
+    def moved(self, way: np.ndarray) -> Nuclei:
+        """The same a `way` (2,) [m] away."""
+        return Nuclei(self.points + way, self.weights)
+
+
+def together(several: Sequence[Nuclei]) -> Nuclei:
+    """The nuclei of several rectangles, one after the other."""
+    weights = None if several[0].weights is None else np.concatenate([nuclei.weights for nuclei in several])
+    return Nuclei(np.concatenate([nuclei.points for nuclei in several]), weights)
 
 
 @dataclass(frozen=True)
@@ -49,7 +60,7 @@ class Recipe:
     def count(self, size: Sequence[float], count: int, periodic: Sequence[bool]) -> int:
         """How many nuclei a rectangle of `size` (2,) [m] has where about `count` are asked for."""
         if self.shape in LATTICES:
-            return len(LATTICES[self.shape](np.asarray(size, float), count, periodic))
+            return len(LATTICES[self.shape](size, count, periodic))
         return count
 
     def nuclei(self, size: np.ndarray, count: int, periodic: Sequence[bool], generator: np.random.Generator) -> Nuclei:
@@ -59,14 +70,32 @@ class Recipe:
         """
         if count < 1:
             raise ValueError(f"floe count = {count}: must be at least 1")
+        places = self.places(size, count, periodic, generator)
+        points = (places - 0.5) * size
         if self.shape in LATTICES:
-            points = LATTICES[self.shape](size, count, periodic)
             return Nuclei(points[order_in_space(points + 0.5 * size)])
-        drawn = generator.random((count, 2))
-        points = (drawn[order_in_space(drawn * size)] - 0.5) * size
+        points = points[order_in_space(places * size)]
         if self.sizes is None:
-            for _ in range(self.regularity):
-                points = centroids(cells_of_points(points, size, periodic), size, periodic)
-            return Nuclei(points)
+            return Nuclei(self.settled(points, size, periodic))
+        return Nuclei(*nuclei_of_areas(points, self.areas(size, count, generator), size, periodic, self.regularity))
+
+    def places(self, size: np.ndarray, count: int, periodic: Sequence[bool], generator: np.random.Generator) -> np.ndarray:
+        """(n, 2) where nuclei are drawn in a rectangle of `size` (2,) [m], in parts of it from its lower left corner."""
+        if self.shape in LATTICES:
+            return LATTICES[self.shape](size, count, periodic)
+        return generator.random((count, 2))
+
+    def areas(self, size: np.ndarray, count: int, generator: np.random.Generator) -> np.ndarray:
+        """(count,) [m2] areas that cells are to have by the distribution of sizes, in random order; they fill the rectangle."""
         shares = generator.permutation(self.sizes.shares(count))
-        return Nuclei(*nuclei_of_areas(points, shares * (float(np.prod(size)) / shares.sum()), size, periodic, self.regularity))
+        return shares * (float(np.prod(size)) / shares.sum())
+
+    def settled(self, points: np.ndarray, size: np.ndarray, periodic: Sequence[bool]) -> np.ndarray:
+        """Points (n, 2) [m] that say the sizes of their cells by themselves, after they have moved to the middles of these."""
+        for _ in range(self.regularity):
+            points = centroids(cells_of_points(points, size, periodic), size, periodic)
+        return points
+
+
+#: cells of random points
+PLAIN = Recipe()

@@ -8,7 +8,7 @@ import numpy as np
 from dilatedem.case.schema import Case
 from dilatedem.field.placement import FloeField
 from dilatedem.scene.arrays import build_model, initial_bodies
-from dilatedem.scene.ice import Floes, IceProperties
+from dilatedem.scene.ice import Floes, ice_of_stream
 from dilatedem.scene.inflow import strips_at_start
 from dilatedem.scene.place import Scene, scene_of_floes
 from dilatedem.state.bodies import Bodies
@@ -41,7 +41,7 @@ class Entering:
         count, areas = len(floes.outlines), floes.plan_area
         every = np.ones(count, np.bool_)
         field = FloeField(floes.outlines, areas, areas, self.stream.factor, self.stream.concentration, every)
-        scene = scene_of_floes(case, Floes(field, IceProperties.of_case(case, count)), self._scene.structures)
+        scene = scene_of_floes(case, Floes(field, ice_of_stream(case, self.stream, floes.which)), self._scene.structures)
         model = build_model(case, scene)
         return Newcomers(floes.which + self._shift, scene, model, initial_bodies(case, scene, model), floes.narrow)
 

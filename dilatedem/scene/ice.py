@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
@@ -11,6 +11,7 @@ from dilatedem.case.schema import Case
 from dilatedem.errors import CaseError
 from dilatedem.field.distribution import thicknesses
 from dilatedem.field.drawing import VELOCITY, read
+from dilatedem.field.endless import natural
 from dilatedem.field.obstacles import Obstacle
 from dilatedem.field.placement import FloeField, Parts, dilated_areas, ice_field, touching_obstacles
 from dilatedem.field.stream import Stream
@@ -71,7 +72,8 @@ def _cut(case: Case, bodies: Sequence[Obstacle]) -> Floes:
     count, recipe = generated_floes(case), recipe_of(case)
     if case.domain.inflow is not None:
         return _entered(case, stream_of(case, count), bodies)
-    ice = _varied(case, IceProperties.of_case(case, recipe.count(case.domain.size, count, whole_axes(case))))
+    made = recipe.count(np.array(case.domain.size), count, whole_axes(case))
+    ice = replace(IceProperties.of_case(case, made), thickness=varied(case, made))
     field = ice_field(
         case.domain.size,
         count,
@@ -79,7 +81,7 @@ def _cut(case: Case, bodies: Sequence[Obstacle]) -> Floes:
         periodic=periodic_axes(case),
         seed=case.field.seed,
         dilated_radius=case.ice.dilated_radius,
-        obstacles=_obstacles(case, ice, bodies),
+        obstacles=_obstacles(case, ice.thickness, bodies),
         recipe=recipe,
         ragged=ragged_axes(case),
     )
@@ -88,9 +90,20 @@ def _cut(case: Case, bodies: Sequence[Obstacle]) -> Floes:
 
 def _entered(case: Case, stream: Stream, bodies: Sequence[Obstacle]) -> Floes:
     """What is there at t = 0 of ice without an end."""
-    obstacles = _obstacles(case, IceProperties.of_case(case, 1), bodies)
-    field = field_of(case, stream, obstacles, periodic_axes(case))
-    return Floes(field, IceProperties.of_case(case, len(field.outlines)), stream=stream)
+    obstacles = _obstacles(case, varied(case, stream.count), bodies)
+    field, which = field_of(case, stream, obstacles, periodic_axes(case))
+    return Floes(field, ice_of_stream(case, stream, which), stream=stream)
+
+
+def ice_of_stream(case: Case, stream: Stream, which: np.ndarray) -> IceProperties:
+    """What floes of a stream are made of; which (n,): their numbers among its cells. So many in a row have the thicknesses of as
+    large a field that ends."""
+    ice, thickness = IceProperties.of_case(case, len(which)), np.empty(len(which))
+    row, place = np.divmod(which, stream.count)
+    for number in np.unique(row):
+        own = row == number
+        thickness[own] = varied(case, stream.count, int(number))[place[own]]
+    return replace(ice, thickness=thickness)
 
 
 def _drawn(case: Case, bodies: Sequence[Obstacle]) -> Floes:
@@ -109,18 +122,20 @@ def _drawn(case: Case, bodies: Sequence[Obstacle]) -> Floes:
             f"field.tolerance = {field.tolerance:g}: leaves an outline with {most} corners, and at most {MOST_FACE_CORNERS} can be "
             "handled; take a larger one"
         )
-    ice = _told(_varied(case, IceProperties.of_case(case, len(found.properties))), found.properties, 2.0 * radius).where(floe)
+    count = len(found.properties)
+    ice = replace(IceProperties.of_case(case, count), thickness=varied(case, count))
+    ice = _told(ice, found.properties, 2.0 * radius).where(floe)
     areas, _ = dilated_areas(outlines.by_sides(), len(outlines), 1.0, radius)
-    touching = touching_obstacles(outlines, _obstacles(case, ice, bodies), size, periodic_axes(case))
+    touching = touching_obstacles(outlines, _obstacles(case, ice.thickness, bodies), size, periodic_axes(case))
     kept = ~np.isin(floe, floe[touching])  # a floe goes as a whole
     parts = Parts(floe[kept], floe, found.inner[kept])
     made = FloeField(outlines.where(kept), areas[kept], areas, 1.0, float(areas.sum() / np.prod(size)), kept, parts)
     return Floes(made, ice.where(kept), found.report)
 
 
-def _obstacles(case: Case, ice: IceProperties, bodies: Sequence[Obstacle]) -> list[Obstacle]:
-    """What no floe may touch at the start."""
-    thickest = float(ice.thickness.max(initial=case.ice.thickness if not len(ice.thickness) else 0.0))
+def _obstacles(case: Case, thickness: np.ndarray, bodies: Sequence[Obstacle]) -> list[Obstacle]:
+    """What no floe may touch at the start; thickness (n,) [m] of the floes."""
+    thickest = float(thickness.max(initial=case.ice.thickness if not len(thickness) else 0.0))
     return [*(obstacle for structure in case.structure for obstacle in structure.obstacles(thickest)), *bodies]
 
 
@@ -139,16 +154,18 @@ def _told(ice: IceProperties, told: Sequence[dict], least: float) -> IceProperti
     return IceProperties(**values)
 
 
-def _varied(case: Case, ice: IceProperties) -> IceProperties:
-    """The same with the thicknesses that the case asks for. Raises ValueError for one that its rounded edges do not fit into."""
+def varied(case: Case, count: int, number: int = 0) -> np.ndarray:
+    """(count,) thicknesses [m] that the case asks for. Raises ValueError for one that its rounded edges do not fit into.
+
+    number: of several such sets the ones that differ in their order.
+    """
     mean, spread, least = case.ice.thickness, case.ice.thickness_spread, 2.0 * case.ice.dilated_radius
-    if spread == 0.0:
-        return ice
-    generator = np.random.default_rng([case.field.seed, THICKNESS])
-    thickness = thicknesses(len(ice.thickness), mean, spread, generator)
-    if thin := int(np.count_nonzero(thickness <= least)):
+    generator = np.random.default_rng([case.field.seed, THICKNESS, *([natural(number)] if number else [])])
+    thickness = thicknesses(count, mean, spread, generator)
+    if spread and (thin := int(np.count_nonzero(thickness <= least))):
         raise ValueError(
             f"{thin} of {len(thickness)} floes are thinner than twice the dilated radius, {least:g} m, the thinnest "
             f"{thickness.min():.3g} m: take a smaller ice.thickness_spread or ice.dilated_radius"
         )
-    return IceProperties(thickness, ice.density, ice.elastic_modulus, ice.poisson_ratio, ice.velocity)
+    return thickness
+

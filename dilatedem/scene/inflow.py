@@ -10,9 +10,11 @@ from collections.abc import Sequence
 import numpy as np
 
 from dilatedem.case.schema import Case
+from dilatedem.field.endless import Course
 from dilatedem.field.obstacles import Obstacle
 from dilatedem.field.placement import FloeField, touching_obstacles
-from dilatedem.field.stream import Course, Stream
+from dilatedem.field.stream import Stream
+from dilatedem.scene.recipe import recipe_of, whole_axes
 
 #: s between two looks whether a strip is to enter
 LOOK = 1.0
@@ -24,7 +26,7 @@ def course_of(case: Case) -> Course:
     """Which way the ice of a case comes in."""
     axis = case.domain.inflow
     upstream = -1 if case.ice_velocity[axis] > 0.0 else 1
-    return Course(case.domain.size, axis, upstream, case.domain.boundaries[1 - axis] == "periodic")
+    return Course(case.domain.size, axis, upstream, whole_axes(case)[1 - axis])
 
 
 def drift_speed(case: Case) -> float:
@@ -39,7 +41,8 @@ def entrance(case: Case) -> float:
 
 def stream_of(case: Case, count: int) -> Stream:
     """The ice of a case, without an end; count: floes to the area of its domain. Raises ValueError as `field.stream.Stream`."""
-    return Stream(course_of(case), count, case.field.concentration, seed=case.field.seed, radius=case.ice.dilated_radius)
+    field, radius = case.field, case.ice.dilated_radius
+    return Stream(course_of(case), count, field.concentration, seed=field.seed, radius=radius, recipe=recipe_of(case))
 
 
 def strips_at_start(case: Case, stream: Stream) -> range:
@@ -47,12 +50,15 @@ def strips_at_start(case: Case, stream: Stream) -> range:
     return stream.until(entrance(case))
 
 
-def field_of(case: Case, stream: Stream, obstacles: Sequence[Obstacle], periodic: tuple[bool, bool]) -> FloeField:
-    """The floes of a stream that are there at t = 0, clear of obstacles."""
+def field_of(
+    case: Case, stream: Stream, obstacles: Sequence[Obstacle], periodic: tuple[bool, bool]
+) -> tuple[FloeField, np.ndarray]:
+    """The floes of a stream that are there at t = 0, clear of obstacles, and the number of each among its cells."""
     floes = stream.floes(strips_at_start(case, stream))
     outlines = floes.outlines
     inside = np.maximum.reduceat(stream.course.ahead(outlines.points), outlines.start[:-1]) > 0.0
     outlines, plan_area = outlines.where(inside), floes.plan_area[inside]
     touching = touching_obstacles(outlines, obstacles, np.asarray(case.domain.size), periodic)
     clear = ~touching
-    return FloeField(outlines.where(clear), plan_area[clear], plan_area, stream.factor, stream.concentration, clear)
+    field = FloeField(outlines.where(clear), plan_area[clear], plan_area, stream.factor, stream.concentration, clear)
+    return field, floes.which[inside][clear]
