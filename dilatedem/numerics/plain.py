@@ -12,12 +12,16 @@ from numpy.typing import ArrayLike
 
 #: pi/2 as the sum of two numbers, the first of 33 bits, so that whole multiples of it up to 2^20 are exact
 QUARTER, QUARTER_REST = 1.5707963267341256, 6.077100506506192e-11
+#: ln 2 as the sum of two numbers, likewise
+DOUBLING, DOUBLING_REST = 0.6931471803691238, 1.9082149292705877e-10
 #: how often the arctangent halves its angle, which is at most pi/2: what is left, below 0.1, needs a short series
 HALVINGS = 4
 #: coefficients of arctan(t)/t, sin(x)/x and cos(x) in powers of the square, highest first
 ARCTANGENT = tuple((-1.0) ** k / (2 * k + 1) for k in range(9, -1, -1))
 SINE = tuple((-1.0) ** k / math.factorial(2 * k + 1) for k in range(9, -1, -1))
 COSINE = tuple((-1.0) ** k / math.factorial(2 * k) for k in range(9, -1, -1))
+#: and of exp(x) in powers of x
+EXPONENTIAL = tuple(1.0 / math.factorial(k) for k in range(14, -1, -1))
 #: steps of Newton's method for a root, from a start within a factor of two
 ROOT_STEPS = 24
 
@@ -71,6 +75,14 @@ def sine_cosine(x: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
     odd, beyond = quarters % 2.0 == 1.0, quarters % 4.0
     s, c = np.where(odd, cosine, sine), np.where(odd, sine, cosine)
     return np.where(beyond >= 2.0, -s, s), np.where((beyond == 1.0) | (beyond == 2.0), -c, c)
+
+
+def exponential(x: ArrayLike) -> np.ndarray:
+    """exp(x) of numbers between -700 and 700; 0 below. Within four units of the last digit."""
+    x = np.asarray(x, float)
+    doublings = np.floor(x / (DOUBLING + DOUBLING_REST) + 0.5)
+    rest = (x - doublings * DOUBLING) - doublings * DOUBLING_REST
+    return np.where(x < -700.0, 0.0, np.ldexp(_series(EXPONENTIAL, rest), np.clip(doublings, -1022.0, 1023.0).astype(np.int64)))
 
 
 def nth_root(x: float, degree: int) -> float:
