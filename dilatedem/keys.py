@@ -43,6 +43,8 @@ RANGES = {
     "N m/rad": Range(1e-9, 1e24),
     "N s/m": Range(1e-9, 1e18),
     "N m s": Range(1e-9, 1e24),
+    "kg/m": Range(1e-9, 1e12),
+    "N m2": Range(1e-9, 1e24),
 }
 #: all other numbers
 OTHER_RANGE = Range(0.0, 1e6)

@@ -1,4 +1,4 @@
-"""Motion of structures that are not held: the driven follow their table of time, the sprung swing on their supports.
+"""Motion of structures that are not held: the driven follow their table of time, the others swing on their supports.
 
 M u'' + C u' + K u = F for each of the three ways that a support gives way, F the load of the ice, in the steps of
 `motion.integrate`: half a kick, the whole move, the loads at the new place against a velocity predicted for it, half a kick.
@@ -6,11 +6,12 @@ M u'' + C u' + K u = F for each of the three ways that a support gives way, F th
 
 from math import cos, sin
 
-from dilatedem.jit import device, item
+from dilatedem.jit import by_type, device, item
+from dilatedem.motion.vibrate import push_modes, vibrate
 from dilatedem.numerics.vector import add, load, store
-from dilatedem.state.supports import Carried
+from dilatedem.state.supports import Carried, ModalSupports
 
-DRIVEN, SPRUNG = int(Carried.DRIVEN), int(Carried.SPRUNG)
+DRIVEN, MODAL = int(Carried.DRIVEN), int(Carried.MODAL)
 #: columns of `Loads.step_load` that a support bears: along x, along y, about z
 BORNE = (0, 1, 5)
 
@@ -27,7 +28,7 @@ def carry_structures(dt, model, bodies, excursions, clock):
         if supports.kind[s] == DRIVEN:
             _drive(s, time, dt, supports, excursions)
         else:
-            _swing(s, dt, supports, excursions)
+            swing(s, dt, supports, excursions)
         shift = (excursions.displacement[s, 0], excursions.displacement[s, 1], 0.0)
         store(excursions.center, s, add(load(supports.place, s), shift))
         _place_parts(m, dt, model.floating, supports, bodies, excursions)
@@ -72,6 +73,18 @@ def _swing(s, dt, supports, excursions):
         excursions.middle_velocity[s, c] = middle
         excursions.displacement[s, c] += dt * middle
         excursions.velocity[s, c] = middle + kick
+
+
+@device
+def _swing_or_vibrate(s, dt, supports, excursions):
+    if supports.kind[s] == MODAL:
+        vibrate(s, dt, supports, excursions)
+    else:
+        _swing(s, dt, supports, excursions)
+
+
+#: swing(s, dt, supports, excursions): half a kick and the whole move of structure s, on springs or as a beam.
+swing = by_type(_swing, {ModalSupports: _swing_or_vibrate}, at=2)
 
 
 @device
@@ -134,30 +147,42 @@ def push_structures(dt, model, bodies, excursions, loads):
     supports = model.supports
     for m in range(len(supports.moving)):
         s = supports.moving[m]
-        for c in range(3):
-            _push(s, c, dt, loads.step_load[s, BORNE[c]], supports, excursions)
-        if dt > 0.0 and supports.kind[s] == SPRUNG:
+        push(s, dt, loads, supports, excursions)
+        if dt > 0.0 and supports.kind[s] != DRIVEN:
             _give_velocities(m, model.floating, supports, bodies, excursions)
             _take_along(s, model.whole_of, excursions)
 
 
 @device
-def _push(s, c, dt, ice, supports, excursions):
-    """The same of structure s in one of its three ways c; ice [N or N m].
+def _push(s, dt, loads, supports, excursions):
+    """The same of structure s, in each of its three ways c.
 
     Work is force times displacement, the forces' mean over the step: with it the kinetic energy of the Verlet steps closes.
     """
-    middle = excursions.middle_velocity[s, c]
-    if supports.kind[s] == DRIVEN:
-        excursions.work[s] -= 0.5 * dt * (ice + excursions.ice[s, c]) * middle
+    for c in range(3):
+        ice, middle = loads.step_load[s, BORNE[c]], excursions.middle_velocity[s, c]
+        if supports.kind[s] == DRIVEN:
+            excursions.work[s] -= 0.5 * dt * (ice + excursions.ice[s, c]) * middle
+        else:
+            dashpot = -supports.damping[s, c] * excursions.velocity[s, c]
+            excursions.loss[s] -= 0.5 * dt * (dashpot + excursions.dashpot[s, c]) * middle
+            force = ice - supports.stiffness[s, c] * excursions.displacement[s, c] + dashpot
+            excursions.dashpot[s, c], excursions.force[s, c] = dashpot, force
+            if dt > 0.0:
+                excursions.velocity[s, c] = middle + 0.5 * dt * supports.inverse_mass[s, c] * force
+        excursions.ice[s, c] = ice
+
+
+@device
+def _push_all_kinds(s, dt, loads, supports, excursions):
+    if supports.kind[s] == MODAL:
+        push_modes(s, dt, loads, supports, excursions)
     else:
-        dashpot = -supports.damping[s, c] * excursions.velocity[s, c]
-        excursions.loss[s] -= 0.5 * dt * (dashpot + excursions.dashpot[s, c]) * middle
-        force = ice - supports.stiffness[s, c] * excursions.displacement[s, c] + dashpot
-        excursions.dashpot[s, c], excursions.force[s, c] = dashpot, force
-        if dt > 0.0:
-            excursions.velocity[s, c] = middle + 0.5 * dt * supports.inverse_mass[s, c] * force
-    excursions.ice[s, c] = ice
+        _push(s, dt, loads, supports, excursions)
+
+
+#: push(s, dt, loads, supports, excursions): the loads of this instant on structure s, the end of its kick, what the step took.
+push = by_type(_push, {ModalSupports: _push_all_kinds}, at=3)
 
 
 @item

@@ -29,6 +29,8 @@ BODIES_COLUMNS = (
     "wx_rad_s", "wy_rad_s", "wz_rad_s",
 )  # fmt: skip
 STRUCTURES_COLUMNS = ("time_s", "structure", "x_m", "y_m", "yaw_rad", "vx_m_s", "vy_m_s", "reaction_x_N", "reaction_y_N")
+#: and of cases with a beam
+BEAM_COLUMNS = ("base_moment_x_Nm", "base_moment_y_Nm", "base_force_max_N", "base_moment_max_Nm")
 
 TEXT_COLUMNS = frozenset({"structure", "mode"})
 # Nine digits: below the error of any figure in the tables; times stay readable (0.3, not 0.30000000000000004)

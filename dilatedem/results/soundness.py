@@ -122,6 +122,7 @@ _SUMMARY = _table(
     duration_s=_figure, wall_s=_figure, compile_s=_figure, threads=_whole,
     loads=_table(rest=_table(rest=_maybe(lambda value: _truth(value) and _number(value)))),
     energy=_table(rest=_figure), contact=_table(), motion=_table(rest=_table(rest=_number)),
+    natural_frequencies=_table(rest=_table(rest=_list(_number))),
     hits=_table(
         threshold_N=_figure, gap_s=_figure, meaning=_text, structures=_table(rest=_table(rest=_figure)),
     ),

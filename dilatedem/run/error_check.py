@@ -60,7 +60,7 @@ class Copy(NamedTuple):
             Moment(state.clock.step.copy(), state.loads.step_load.copy()),
             Bodies(*(values.copy() for values in state.bodies)),
             packed(state.pairs),
-            Excursions(*(values.copy() for values in state.excursions)),
+            type(state.excursions)(*(values.copy() for values in state.excursions)),
         )
 
     @property
@@ -125,9 +125,9 @@ class Watch:
         """The rest, as meta of a checkpoint."""
         return {name: getattr(self, name) for name in ("peak", "structure", "until", "seen")}
 
-    def restore(self, groups: dict[str, dict], figures: dict, *, where: str) -> None:
-        """Take up `groups` and `figures` of a checkpoint. Raises CaseError as `checkpoint.restore`."""
-        kinds = {"moment": Moment, "bodies": Bodies, "pairs": PackedPairs, "excursions": Excursions}
+    def restore(self, groups: dict[str, dict], figures: dict, excursions: type[Excursions], *, where: str) -> None:
+        """Take up `groups` and `figures` of a checkpoint; excursions: their class. Raises CaseError as `checkpoint.restore`."""
+        kinds = {"moment": Moment, "bodies": Bodies, "pairs": PackedPairs, "excursions": excursions}
         for name in COPIES:
             if f"{name}_moment" in groups:
                 parts = (checkpoint.restore(kind, groups[f"{name}_{part}"], where=where) for part, kind in kinds.items())
@@ -212,7 +212,7 @@ def replay(simulation, steps: int, parts: int, asked: Callable[[], bool]) -> dic
         pairs=unpacked(copy.pairs, 2 * len(copy.pairs.a) + 64), ledger=empty_ledger(len(simulation.state.ledger.departed_work)),
         loads=empty_loads(len(loads.step_contacts), len(loads.impulse_map)), hits=no_hits(0),
         clock=clock_at(copy.step * parts, simulation.dt / parts),
-        excursions=Excursions(*(values.copy() for values in copy.excursions)),
+        excursions=type(copy.excursions)(*(values.copy() for values in copy.excursions)),
     )  # fmt: skip
     again = replace(simulation, state=state, dt=simulation.dt / parts)
     left = steps * parts

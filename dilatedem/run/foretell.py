@@ -55,6 +55,8 @@ def check(case: Case, *, trial_s: float = 0.0) -> dict:
         facts[f"length of wave.{number}, m"] = case.gravity.acceleration * wave.period**2 / (2.0 * np.pi)
     for structure in scene.structures:
         facts |= {f'structure "{structure.name}"': sentence for sentence in structure.about.remarks()}
+        told = {} if structure.whole else structure.support.remarks(simulation.dt)
+        facts |= {f'modes of "{structure.name}" {about}': sentence for about, sentence in told.items()}
     facts["ice at"] = presence(simulation)
     facts["warnings"] = simulation.advice()
     return facts | _wall_time(simulation, steps, trial_s)  # last: it moves the ice

@@ -47,7 +47,7 @@ def load_checkpoint(out: Path, case: Case, simulation: Simulation) -> dict:
         setattr(state, name, checkpoint.restore(type(current), groups[name], where=str(file)))
     state.pairs = unpacked(state.pairs, max(room, len(state.pairs.a)))
     if state.watch:
-        state.watch.restore(groups, meta["watch"], where=str(file))
+        state.watch.restore(groups, meta["watch"], type(state.excursions), where=str(file))
     simulation.make_room()
     if "shapes" in groups:  # bodies have come or gone since the start
         arrays = {name: checkpoint.restore(type(getattr(model, name)), groups[name], where=str(file)) for name in REMODELLED}

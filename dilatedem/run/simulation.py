@@ -128,7 +128,7 @@ class Simulation:
         inflow = inflow_at_start(strips_at_start(case, scene.stream).stop) if scene.stream else None
         state = State(
             Ids(np.arange(scene.count)), bodies, empty_pairs(PAIRS_PER_BODY * scene.count + 64), empty_ledger(len(WORKS)),
-            loads, hits_at_start(case, dt), clock_at_start(), initial_excursions(scene), watch, inflow,
+            loads, hits_at_start(case, dt), clock_at_start(), initial_excursions(scene, model.supports), watch, inflow,
         )  # fmt: skip
         return cls(case, scene, model, state, dt, critical, span, threads, speed=usual_speed(model, bodies))
 

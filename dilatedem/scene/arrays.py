@@ -21,7 +21,7 @@ from dilatedem.state.charts import Along, Charts
 from dilatedem.state.model import Model
 from dilatedem.state.records import records_of
 from dilatedem.state.setting import CONTACT_SETTINGS, ContactSetting, Surroundings
-from dilatedem.state.supports import Excursions, Supports, excursions_at_start
+from dilatedem.state.supports import Excursions, Supports, excursions_at_start, with_modes
 from dilatedem.structures.held import HeldBody
 from dilatedem.structures.kind import Part
 from dilatedem.water.loads import WORKS, load_setting
@@ -180,9 +180,9 @@ def _start_driven(scene: Scene, model: Model, bodies: Bodies) -> None:
     bodies.angular_velocity[part, 2] = spin
 
 
-def initial_excursions(scene: Scene) -> Excursions:
-    """All structures at their places, those that are driven as fast as their supports say."""
-    return excursions_at_start(places(scene), velocities_at_start(scene))
+def initial_excursions(scene: Scene, supports: Supports) -> Excursions:
+    """All structures at their places, those that are driven as fast as their supports say; beams at rest."""
+    return with_modes(supports, excursions_at_start(places(scene), velocities_at_start(scene)))
 
 
 def _pack_charts(case: Case, scene: Scene) -> Charts:

@@ -4,12 +4,12 @@ import numpy as np
 
 from dilatedem.numerics.blocks import offsets
 from dilatedem.scene.place import PlacedStructure, Scene
-from dilatedem.state.supports import Carried, Supports
+from dilatedem.state.supports import Carried, ModalSupports, Supports
 from dilatedem.structures.support import Carriage
 
 
-def pack_supports(scene: Scene) -> Supports:
-    """Of all records of a scene, in their order."""
+def pack_supports(scene: Scene) -> Supports | ModalSupports:
+    """Of all records of a scene, in their order; a class of its own where some are beams."""
     sums = len(scene.records) - len(scene.structures)
     carriages = [*(_carriage(structure) for structure in scene.structures), *[Carriage(Carried.HELD)] * sums]
     parts, own = [part for structure in scene.structures for part in structure.parts], np.arange(len(scene.structures))
@@ -21,7 +21,7 @@ def pack_supports(scene: Scene) -> Supports:
     def rows(name: str, width: int) -> np.ndarray:
         return np.reshape([getattr(carriage, name) for carriage in carriages], (-1, width))
 
-    return Supports(
+    supports = Supports(
         moving=moving,
         kind=np.array([carriage.kind for carriage in carriages], np.int64),
         place=place,
@@ -36,6 +36,29 @@ def pack_supports(scene: Scene) -> Supports:
         knot_time=np.concatenate([np.zeros(0), *(carriage.times for carriage in carriages)]),
         knot=np.concatenate([np.zeros((0, 3)), *(carriage.displacement for carriage in carriages)]),
         slope=np.concatenate([np.zeros((0, 3)), *(carriage.slope for carriage in carriages)]),
+    )
+    return _with_beams(supports, carriages) if any(carriage.modes for carriage in carriages) else supports
+
+
+def _with_beams(supports: Supports, carriages: list[Carriage]) -> ModalSupports:
+    """The same with the modes of beams, along x and along y in columns."""
+    beams = [carriage for carriage in carriages if carriage.modes]
+
+    def columns(name: str) -> np.ndarray:
+        return np.concatenate([np.column_stack([getattr(modes, name) for modes in beam.modes]) for beam in beams])
+
+    frequency = columns("frequency")
+    counts = [len(carriage.modes[0].frequency) if carriage.modes else 0 for carriage in carriages]
+    ratio = np.repeat([carriage.damping_ratio for carriage in carriages], counts)[:, None]
+    return ModalSupports(
+        *supports,
+        mode_start=offsets(counts),
+        mode_shape=columns("shape"),
+        mode_square=frequency * frequency,
+        mode_damping=2.0 * ratio * frequency,
+        mode_shear=columns("shear"),
+        mode_moment=columns("moment"),
+        push_height=np.array([carriage.push_height for carriage in carriages]),
     )
 
 

@@ -1,8 +1,8 @@
-"""What carries a structure, whatever its shape: it is held fast, driven as a table of time says, or stands on springs.
+"""What carries a structure, whatever its shape: it is held fast, driven as a table of time says, or stands on springs or on a beam.
 
 A support answers two questions: its keys in a case file (the fields of its table, `faults`), and how a structure moves on it
 (`carriage`). A new one is a class here, its name in `SUPPORTS`, and, where neither a table of time nor masses and springs along x,
-along y and about z say what it does, its share of `motion.carry`.
+along y and about z say what it does, its share of `motion.carry`. What `dilatedem check` says of it: `remarks`.
 """
 
 from abc import abstractmethod
@@ -12,11 +12,15 @@ from typing import Annotated, Any, Literal, Union
 import numpy as np
 from pydantic import Field, model_validator
 
-from dilatedem.keys import MOST_ROWS, Fault, NonNegative, Positive, Stiffness2, Table, Vector2, complete, key
+from dilatedem.keys import MOST_ROWS, Fault, NonNegative, Positive, Size2, Stiffness2, Table, Vector2, complete, key
+from dilatedem.numerics.plain import dot
 from dilatedem.state.supports import Carried
+from dilatedem.structures.beam import Beam, Modes, beam_modes
 
 #: of the critical damping, where a case does not say
 DAMPING_RATIO = 0.02
+#: modes of a beam, where a case does not say, and at most
+MODES, MOST_MODES = 3, 20
 #: columns of a file of motion
 MOTION_COLUMNS = ("time_s", "x_m", "y_m", "yaw_rad")
 
@@ -29,6 +33,8 @@ class Carriage:
 
     SPRUNG: inverse_mass, stiffness, damping (3,) as in `state.supports.Supports`, an inverse mass of 0 where it does not give way.
     DRIVEN: times (k,) [s] and, in rows, displacement and slope (k, 3); cubic between two rows, beyond the last as fast as there.
+    MODAL: modes along x and along y, their damping_ratio, and push_height [m] above the foot, where ice pushes; the first three are
+    those of an oscillator that bounds all modes together.
     """
 
     kind: Carried
@@ -38,6 +44,9 @@ class Carriage:
     times: np.ndarray = field(default_factory=lambda: np.zeros(0))
     displacement: np.ndarray = field(default_factory=lambda: np.zeros((0, 3)))
     slope: np.ndarray = field(default_factory=lambda: np.zeros((0, 3)))
+    modes: tuple[Modes, ...] = ()
+    damping_ratio: float = 0.0
+    push_height: float = 0.0
 
     def at(self, time: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Displacement and its rate (n, 3) at times (n,) [s] of one that is driven; zero of all others."""
@@ -63,6 +72,10 @@ class Support(Table):
     @abstractmethod
     def carriage(self) -> Carriage:
         """How the structure moves."""
+
+    def remarks(self, dt: float) -> dict[str, str]:
+        """What `dilatedem check` says of it, by what that is about; dt: time step [s]."""
+        return {}
 
     @property
     def moves(self) -> bool:
@@ -172,7 +185,64 @@ class Sprung(Support):
         return Carriage(Carried.SPRUNG, inverse_mass=1.0 / mass, stiffness=stiffness, damping=damping)
 
 
-SUPPORTS: tuple[type[Support], ...] = (Held, Driven, Sprung)
+class Modal(Support):
+    """On an upright beam, uniform from the sea floor to its top, that bends along x and along y in some of its modes: a slender
+    pile, or what stands on one. What is above the water goes with the place where the ice pushes and keeps upright."""
+
+    kind: Literal["modal"] = key(..., "", "The structure stands on a beam that vibrates.")
+    length: Positive = key(..., "m", "Of the beam, from the sea floor up to the water level.")
+    length_above: NonNegative = key(0.0, "m", "And of the same beam above the water, up to its top.")
+    mass_per_length: Positive = key(..., "kg/m", "Of the beam with what is in it, and of the water that goes with it.")
+    bending_stiffness: Size2 = key(..., "N m2", "Young's modulus times second moment of area, for bending along x and along y.")
+    deck_mass: NonNegative = key(0.0, "kg", "Mass on the top of the beam.")
+    soil_stiffness: Positive | None = key(None, "N/m", "Of the soil at the foot, sideways; without it the foot cannot shift.")
+    soil_stiffness_turning: Positive | None = key(
+        None, "N m/rad", "Of the soil against tilting of the foot; without it the foot cannot tilt."
+    )
+    push_height: float = key(0.0, "m", "Height above the water level at which the ice pushes; negative below it.")
+    modes: Annotated[int, Field(ge=1, le=MOST_MODES)] = key(MODES, "", "How many modes along x and as many along y, slowest first.")
+    damping_ratio: NonNegative = key(DAMPING_RATIO, "", "Damping of each mode over the critical one.")
+
+    def faults(self) -> list[Fault]:
+        if not -self.length < self.push_height <= self.length_above:
+            return [(("push_height",), f"must be above -{self.length:g} m, the foot, and up to {self.length_above:g} m, the top")]
+        try:
+            self.carriage()
+        except ValueError as fault:
+            soft = "soil_stiffness" if self.soil_stiffness is not None else "soil_stiffness_turning"
+            return [((soft,), str(fault))]
+        return []
+
+    def beams(self) -> tuple[Beam, ...]:
+        """As it bends along x, and along y."""
+        height, soil = self.length + self.length_above, (self.soil_stiffness or np.inf, self.soil_stiffness_turning or np.inf)
+        return tuple(Beam(height, self.mass_per_length, bends, self.deck_mass, *soil) for bends in self.bending_stiffness)
+
+    def carriage(self) -> Carriage:
+        place = self.length + self.push_height
+        modes = tuple(beam_modes(beam, self.modes, place) for beam in self.beams())
+        give = max(float(dot(each.shape, each.shape)) for each in modes)
+        fastest = max(float(each.frequency[-1]) for each in modes)
+        level = np.array([1.0, 1.0, 0.0])
+        return Carriage(
+            Carried.MODAL, give * level, fastest * fastest / give * level, 2.0 * self.damping_ratio * fastest / give * level,
+            modes=modes, damping_ratio=self.damping_ratio, push_height=place,
+        )  # fmt: skip
+
+    def remarks(self, dt: float) -> dict[str, str]:
+        """Natural frequencies beside the time step, and how much of the displacement under a steady load the modes have."""
+        found, place = {}, self.length + self.push_height
+        for axis, beam, modes in zip("xy", self.beams(), self.carriage().modes, strict=True):
+            told = ", ".join(f"{frequency:.4g}" for frequency in (modes.frequency / (2.0 * np.pi)).tolist())
+            steps, share = 2.0 * np.pi / (float(modes.frequency[-1]) * dt), modes.flexibility() / beam.flexibility(place)
+            found[f"along {axis}"] = (
+                f"{told} Hz; {steps:.3g} time steps in a period of the fastest; {100.0 * share:.4g} % of the displacement "
+                "under a steady load"
+            )
+        return found
+
+
+SUPPORTS: tuple[type[Support], ...] = (Held, Driven, Sprung, Modal)
 #: class by what stands under `kind`
 BY_NAME: dict[str, type[Support]] = {kind.model_fields["kind"].annotation.__args__[0]: kind for kind in SUPPORTS}
 HELD = Held(kind="held")
@@ -182,4 +252,4 @@ AnySupport = Annotated[Union[SUPPORTS], Field(discriminator="kind")]  # noqa: UP
 
 def support_key() -> Any:
     """The key `support` of a kind of structure."""
-    return key(HELD, "", 'What carries it: a table with `kind = "held"`, `"driven"` or `"sprung"` and the keys of that support.')
+    return key(HELD, "", 'What carries it: a table with `kind = "held"`, `"driven"`, `"sprung"` or `"modal"` and its keys.')

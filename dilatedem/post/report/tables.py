@@ -76,7 +76,22 @@ def motion_rows(summary: dict[str, Any], structure: str) -> Rows:
     return [
         ["largest displacement", number(most["displacement_max_m"], 4), f"m, at {number(most['displacement_max_time_s'], 5)} s"],
         ["largest force on its base", kilo(most["reaction_max_N"]), f"kN, at {number(most['reaction_max_time_s'], 5)} s"],
+    ] + beam_rows(most, (summary.get("natural_frequencies") or {}).get(structure) or {})
+
+
+def beam_rows(most: dict[str, float], frequencies: dict[str, list[float]]) -> Rows:
+    """What the foot of a beam bore at most at any time step, and how fast it swings; none of a structure that is on no beam."""
+    if "base_moment_max_Nm" not in most:
+        return []
+    force, moment = most["base_force_max_N"], most["base_moment_max_Nm"]
+    rows = [
+        ["highest force on its foot, of all steps", kilo(force), f"kN, up to {number(most['base_force_max_time_s'], 5)} s"],
+        ["highest moment about its foot, of all steps", kilo(moment), f"kN m, up to {number(most['base_moment_max_time_s'], 5)} s"],
     ]
+    for axis in "xy":
+        told = ", ".join(number(frequency, 4) for frequency in frequencies.get(f"along_{axis}_Hz", []))
+        rows.append([f"natural frequencies along {axis}", told, "Hz"])
+    return rows
 
 
 def step_rows(summary: dict[str, Any], structure: str) -> Rows:

@@ -17,10 +17,12 @@ from dilatedem.post.read import open_run
 from dilatedem.results.load import load as results
 from dilatedem.run import loop
 from dilatedem.run.advice import advice
+from dilatedem.run.foretell import as_json, check
 from dilatedem.run.simulation import Simulation
 from dilatedem.structures.support import Driven, Sprung
 from tests.unit.structures.test_box import toml
 
+BEAM = {"kind": "modal", "length": 20.0, "mass_per_length": 1e3, "bending_stiffness": [1e10, 1e10]}
 TABLE = [[0.0, 7.0, 2.0, 0.0], [1.0, 7.0, 2.0, 0.0], [2.0, 5.5, 2.0, 0.3], [4.0, 5.0, 1.0, 0.3]]
 
 
@@ -30,8 +32,8 @@ def case_with(support: dict, kind: str = "pile", part: list[dict] | None = None,
 
 
 @pytest.mark.parametrize(("support", "said"), [
-    ({"kind": "spring"}, 'structure.0.support.kind = "spring": must be "held", "driven" or "sprung"; did you mean "sprung"?'),
-    ({}, 'structure.0.support.kind: is missing; it must be "held", "driven" or "sprung"'),
+    ({"kind": "spring"}, 'support.kind = "spring": must be "held", "driven", "sprung" or "modal"; did you mean "sprung"?'),
+    ({}, 'structure.0.support.kind: is missing; it must be "held", "driven", "sprung" or "modal"'),
     ({"kind": "sprung", "stiffness": [1.0, 1.0]}, "structure.0.support.mass: is missing"),
     ({"kind": "sprung", "mass": 1.0, "stiffnes": [1.0, 1.0]}, 'support.stiffnes: unknown key; did you mean "stiffness"?'),
     ({"kind": "sprung", "mass": 1.0, "stiffness": [1.0, -1.0]}, "structure.0.support.stiffness.1 = -1.0: must be at least 0"),
@@ -43,11 +45,26 @@ def case_with(support: dict, kind: str = "pile", part: list[dict] | None = None,
      "structure.0.support.velocity = [1.0, 0.0]: give either velocity and turning or a table of time, not both"),
     ({"kind": "driven", "table": TABLE[::-1]}, "times must grow from row to row"),
     ({"kind": "driven", "file": "nowhere.csv"}, "structure.0.support.file: nowhere.csv: no such file"),
+    ({"kind": "modal", "length": 20.0, "mass_per_length": 1e3}, "structure.0.support.bending_stiffness: is missing"),
+    (BEAM | {"modes": 21}, "structure.0.support.modes = 21: must be at most 20"),
+    (BEAM | {"push_height": 0.5}, "structure.0.support.push_height = 0.5: must be above -20 m, the foot, and up to 0 m, the top"),
+    (BEAM | {"soil_stiffness": 0.1}, "structure.0.support.soil_stiffness = 0.1: the soil hardly holds it"),
 ])  # fmt: skip
 def test_what_is_wrong_is_said(support, said):
     with pytest.raises(CaseError) as fault:
         case_with(support)
     assert said in str(fault.value)
+
+
+def test_a_beam_says_how_fast_it_swings():
+    """1.8751^2/(2 pi L^2) sqrt(EI/m) and 4.6941^2 likewise, and the share of the static displacement that two modes have."""
+    few = {"floe_count": 4, "concentration": 0.3}
+    simulation = Simulation.of_case(case_with(BEAM | {"modes": 2}, time={"step": 1e-4}, field=few))
+    told = simulation.scene.structures[0].support.remarks(simulation.dt)
+    assert list(told) == ["along x", "along y"]
+    assert told["along x"].startswith("4.424, 27.72 Hz; 361 time steps in a period of the fastest; 99.54 % of the displacement")
+    facts = check(simulation.case)
+    assert facts['modes of "pile" along y'] == told["along y"] and as_json(facts)["modes_of_pile_along_y"] == told["along y"]
 
 
 def test_nothing_can_carry_a_plane():
