@@ -21,6 +21,8 @@ from dilatedem.numerics.root import bracketed_root
 LEAST = 0.1
 #: between places where the determinant is looked at: a factor below 1, a distance above; no two roots are nearer to each other
 FACTOR, APART = 1.05, 0.05
+#: how often that factor is taken, so that it leads from the least to 1
+GROWTHS = 48
 #: error of a root, of its own size
 PRECISION = 1e-15
 
@@ -89,8 +91,8 @@ def _roots(beam: Beam, count: int) -> np.ndarray:
     below = 0.999 * nth_root(1.0 / beam.slowness(), 4)
     if below < LEAST:
         raise ValueError("the soil hardly holds it: its slowest motion takes 350 times as long as if it were clamped")
-    low = below * FACTOR ** np.arange(max(0.0, np.ceil(np.log(1.0 / below) / np.log(FACTOR))))
-    places = np.concatenate([low, np.arange(max(1.0, below), (count + 1) * np.pi, APART)])
+    low = below * np.cumprod([1.0, *[FACTOR] * GROWTHS])
+    places = np.concatenate([low[low < 1.0], np.arange(max(1.0, below), (count + 1) * np.pi, APART)])
     positive = _determinant(_conditions(beam, places)) > 0.0
     found = np.flatnonzero(positive[1:] != positive[:-1])[:count]
 
