@@ -27,6 +27,7 @@ from dilatedem.post.figures.loads import force_figure, peak_figure
 from dilatedem.post.figures.map import load_around_figure, load_map_figure
 from dilatedem.post.figures.motion import motion_figure
 from dilatedem.post.figures.rose import rose_figure
+from dilatedem.post.figures.spectrum import spectrum_figure
 from dilatedem.post.figures.sweep import sweep_figure
 from dilatedem.post.harm import COMPARISON_TABLE, refuse_harm, refuse_harm_beside
 from dilatedem.post.loads import angular_statistics, event_statistics, hit_statistics, hit_threshold, load_statistics
@@ -171,6 +172,9 @@ def run_drawings(run: RunFolder) -> list[Drawing]:
     if run.floes is not None:
         drawings += [hit_figure(run, hit, place) for place, hit in enumerate(run.kept_hits, start=1)]
     drawings += [motion_figure(name, motion, run.forces.get(name)) for name, motion in run.motion.items() if row_count(motion)]
+    swinging = run.summary.get("natural_frequencies") or {}
+    for name in [name for name in swinging if row_count(run.motion.get(name, {}))]:
+        drawings.append(spectrum_figure(name, run.motion[name], swinging[name], run.forces.get(name)))
     if row_count(run.energy):
         drawings.append(energy_figure(run.energy, run.energy_labels))
     return [drawing for drawing in drawings if drawing is not None]
