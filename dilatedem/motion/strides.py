@@ -42,7 +42,7 @@ class Pace(NamedTuple):
 
     span: int  # those that nothing can touch
     frequency: float  # rad/s, angular frequency of contacts that single steps are made for; 0: all that are busy take single steps
-    speed: float  # m/s, how fast ice goes
+    speed: float  # m/s, how fast ice goes; 0: no stride is longer, as nothing is small against it
 
 
 @item

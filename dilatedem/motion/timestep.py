@@ -73,9 +73,8 @@ def _impact_speed(model, bodies, free) -> float:
 
 
 def usual_speed(model, bodies) -> float:
-    """How fast [m/s] bodies, water or structures go at t = 0, whichever is fastest; what gravity gives bodies where all rests."""
-    speed = max(float(norm(bodies.velocity).max(initial=0.0)), fastest_water(model.loads), _fastest_driven(model))
-    return speed if speed > 0.0 else SETTLING_SPEED * float(np.sqrt(model.loads.gravity * model.shapes.reach.max(initial=0.0)))
+    """How fast [m/s] bodies, water or structures go at t = 0, whichever is fastest; 0 where all rests."""
+    return max(float(norm(bodies.velocity).max(initial=0.0)), fastest_water(model.loads), _fastest_driven(model))
 
 
 def _fastest_driven(model) -> float:
