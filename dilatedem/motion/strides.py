@@ -47,11 +47,14 @@ class Pace(NamedTuple):
 
 @item
 def set_out(now, near, busy, solids, pairs, workspace):
-    """All busy bodies stand at the step `now`: who hangs together with whom, by the `near` pairs of them."""
+    """All busy bodies stand at the step `now`, as if they had been due: who hangs together with whom, by the `near` pairs of them.
+
+    Returns how many bodies were due.
+    """
     island = workspace.island
     for w in range(busy):
         i = workspace.busy[w]
-        workspace.last[i], workspace.look[i], workspace.stride[i] = now, now, 1
+        workspace.last[i], workspace.look[i], workspace.stride[i], workspace.due_bodies[w] = now, now, 1, i
         island[i] = i if is_free(i, solids) or solids.carried[i] else -1
     for w in range(near):
         k = workspace.near[w]
@@ -63,6 +66,7 @@ def set_out(now, near, busy, solids, pairs, workspace):
         i = workspace.busy[w]
         if island[i] >= 0:
             island[i] = _first_of(i, island)
+    return busy
 
 
 @item
@@ -106,21 +110,21 @@ def next_due(step, end, busy, workspace):
 
 
 @item
-def choose_strides(now, end, dt, pace, near, chosen, count, model, bodies, pairs, workspace):
-    """When the busy bodies that stand at the step `now`, `count` of them in `chosen`, are due next, `end` at the latest."""
+def choose_strides(now, end, dt, pace, near, count, model, bodies, pairs, workspace):
+    """When the bodies that were due at the step `now`, so many, are due next, `end` at the latest."""
     island, look, most, longer = workspace.island, workspace.look, workspace.most_steps, False
     for w in range(count):
-        i = chosen[w]
+        i = workspace.due_bodies[w]
         if island[i] == i:
             most[i] = float(end - now) if look[i] <= now and pace.frequency > 0.0 else 1.0
             longer = longer or most[i] > 1.0
     if longer:
-        _bound_by_bodies(dt, pace, chosen, count, model.solids, model.shapes, bodies, pairs, workspace)
+        _bound_by_bodies(dt, pace, count, model.solids, model.shapes, bodies, pairs, workspace)
         _bound_by_contacts(dt, pace, near, model.solids, bodies, pairs, workspace)
         while _look_ahead(dt, near, model, bodies, pairs, workspace):
             pass
     for w in range(count):
-        i = chosen[w]
+        i = workspace.due_bodies[w]
         if island[i] >= 0:
             steps = most[island[i]]
             workspace.due[i] = now + max(1, int(steps))
@@ -129,11 +133,11 @@ def choose_strides(now, end, dt, pace, near, chosen, count, model, bodies, pairs
 
 
 @item
-def _bound_by_bodies(dt, pace, chosen, count, solids, shapes, bodies, pairs, workspace):
+def _bound_by_bodies(dt, pace, count, solids, shapes, bodies, pairs, workspace):
     """No body goes past its horizon in a longer stride or is kicked hard; parts of what moves as a whole keep to single steps."""
     island, most, path, horizon = workspace.island, workspace.most_steps, bodies.path, workspace.horizon
     for w in range(count):
-        i = chosen[w]
+        i = workspace.due_bodies[w]
         if island[i] < 0:
             continue
         workspace.stiffness[i], root = 0.0, island[i]

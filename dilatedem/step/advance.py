@@ -42,10 +42,10 @@ def advance(
         ahead, near, busy, idle = foresee(dt, min(pace.span - start % pace.span, goal - start), model, bodies, pairs, workspace)
         clock.moves[0] += idle
         end, noted, at_structure = start + ahead, start, pairs_at_structures(near, m.structure_of, pairs, workspace)
-        set_out(start, near, busy, m.solids, pairs, workspace)
-        choose_strides(start, end, dt, pace, near, workspace.busy, busy, model, bodies, pairs, workspace)
+        due = set_out(start, near, busy, m.solids, pairs, workspace)
         lap(timer, FORESEE)
         while True:
+            choose_strides(clock.step[0], end, dt, pace, near, due, model, bodies, pairs, workspace)
             now, due = next_due(clock.step[0], end, busy, workspace)
             noted = note_steps(
                 noted, min(now, end + 1) - 1, near, at_structure, dt, model, ids, bodies, pairs, workspace, loads, windows, hits,
@@ -85,7 +85,6 @@ def advance(
             if status != DONE or surprised(team, workspace):
                 end = now  # and the others come to this instant, too
             lap(timer, RECORD)
-            choose_strides(now, end, dt, pace, near, workspace.due_bodies, due, model, bodies, pairs, workspace)
         spent = (clock.step[0] - start) * dt
         if not drift_bodies(team, workspace.idle, idle, spent, model, bodies, pairs, workspace, clock):
             status = TOO_FAST
