@@ -17,7 +17,7 @@ from typing import NamedTuple
 
 from dilatedem.contact.collide import gap_between
 from dilatedem.contact.turning import turn_shape
-from dilatedem.jit import item
+from dilatedem.jit import device, item
 from dilatedem.motion.integrate import place_ahead
 from dilatedem.numerics.vector import dot, load, sub
 from dilatedem.state.clock import NEVER
@@ -191,7 +191,7 @@ def _bound_by_contacts(dt, pace, near, solids, bodies, pairs, workspace):
         _bound(root, dt * phase * abs(opening), MOST_JOLT * pace.speed, most)
 
 
-@item
+@device
 def _look_ahead(dt, near, model, bodies, pairs, workspace):
     """Shorten strides in which something new would touch; returns whether there were any, at whose new ends nobody has looked.
 
