@@ -24,6 +24,14 @@ ENTERING = [
     "time.step_fraction=0.3", "time.duration=7", "body=[{outline=[[-1.5,2.5],[-0.5,2.5],[-0.5,3.5],[-1.5,3.5]], fixed=true}]",
     "output.track=[0,3,60]", "output.hits_in_full=3", "output.hit_threshold=500.0",
 ]  # fmt: skip
+#: the same ice, made otherwise
+RECIPES = {
+    "square": ["field.shape=square", "ice.thickness_spread=0.2"],
+    "hexagon": ["field.shape=hexagon"],
+    "lloyd": ["field.regularity=4", "ice.thickness_spread=0.1"],
+    "power law": ["field={concentration=0.7,seed=4,size_distribution={kind='power_law',min=1.5,max=4.0}}"],
+    "lognormal": ["field.size_distribution={kind='lognormal',spread=0.3}", "ice.thickness_spread=0.2"],
+}
 FREE = ["structure=[]", "body=[]", "output.track=[]"]
 
 
@@ -65,9 +73,10 @@ def test_a_run_that_is_resumed_after_floes_have_come_equals_one_that_never_stopp
     assert told[0] == told[1] and told[0]["entered"] > 10
 
 
-def test_undisturbed_ice_is_where_the_stream_has_it_without_a_seam():
+@pytest.mark.parametrize("recipe", [[], *RECIPES.values()], ids=["random", *RECIPES])
+def test_undisturbed_ice_is_where_the_stream_has_it_without_a_seam(recipe):
     """Every floe, those of the start and those that came, lies where its strip has drifted to."""
-    here = simulation(*FREE, "water.velocity=[-1.5,0.2]")
+    here = simulation(*FREE, "water.velocity=[-1.5,0.2]", *recipe)
     here.run(6.0)
     assert here.state.inflow.entered[0] > 10 and here.state.inflow.left[0] > 0
     places = dict(enumerate(here.scene.position[:, :2]))
@@ -80,11 +89,25 @@ def test_undisturbed_ice_is_where_the_stream_has_it_without_a_seam():
     np.testing.assert_allclose(away, 0.0, atol=1e-9)
     assert here.contacts == 0 and len(np.unique(here.state.ids.body)) == here.model.floating
     stored = sum(here.energy[name] for name in ("kinetic", "gravity", "buoyancy"))
-    begun = simulation(*FREE, "water.velocity=[-1.5,0.2]")
+    begun = simulation(*FREE, "water.velocity=[-1.5,0.2]", *recipe)
     begun.evaluate()
     before = sum(begun.energy[name] for name in ("kinetic", "gravity", "buoyancy"))
     came, went = here.energy["carried_in"], here.energy["carried_out"]
     assert stored + went - came == pytest.approx(before, abs=1e-9 * came) and came > 0.2 * before
+
+
+@pytest.mark.parametrize("recipe", RECIPES.values(), ids=RECIPES)
+def test_ice_of_any_recipe_that_comes_after_a_stop_is_the_same(recipe, tmp_path):
+    """Stopped, and gone on with by two threads, once strips of it have come."""
+    short = ["time.duration=3.0", "time.step_fraction=0.5", *recipe]
+    whole = loop.run(load(CROWDED, [*ENTERING, *FREE, *short]), tmp_path / "whole", quiet=True)
+    begun = load(CROWDED, [*ENTERING, *FREE, *short, "time.duration=2.0"])
+    loop.run(begun, tmp_path / "parts", quiet=True)
+    loop.run(load(CROWDED, [*ENTERING, *FREE, *short]), tmp_path / "parts", threads=2, resume=True, quiet=True)
+    for name in ("forces.csv", "energy.csv", "ice.pvd"):
+        assert (whole / name).read_bytes() == (tmp_path / "parts" / name).read_bytes(), name
+    told = [json.loads((folder / "summary.json").read_text())["inflow"] for folder in (whole, tmp_path / "parts")]
+    assert told[0] == told[1] and told[0]["entered"] > 5
 
 
 def test_ice_that_comes_covers_as_much_as_that_of_the_start():
