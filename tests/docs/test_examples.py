@@ -20,7 +20,7 @@ def runs(crowded, tmp_path_factory) -> Path:
     short = ["time.duration=0.5", "output.track=[]"]
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("PYTHONPATH", str(ROOT))  # the package of this tree, whatever is installed
-        sweep(CASE, vary=["water.velocity=[0.8,0.15],[1,0]"], jobs=1, out=folder / "runs/pile-sweep", overrides=short)
+        sweep(CASE, vary=["water.velocity=[0.8,0.15],[1,0]"], seeds=2, jobs=1, out=folder / "runs/pile-sweep", overrides=short)
     return folder
 
 
@@ -38,6 +38,6 @@ def test_python_of_a_page_runs(page, runs, monkeypatch, capsys):
     assert names and capsys.readouterr().out, "no Python on this page"
     if page == "docs/python.md":
         assert {"force.png", "load_map.png", "snapshot.png"} <= {path.name for path in runs.iterdir()}
-        assert names["sweep"].table["water.velocity.0"].tolist() == [0.8, 1.0]
-        assert names["sweep"].table["water.velocity.1"].tolist() == [0.15, 0.0]
+        assert names["sweep"].table["water.velocity.0"].tolist() == [0.8, 0.8, 1.0, 1.0]
+        assert names["sweep"].table["water.velocity.1"].tolist() == [0.15, 0.15, 0.0, 0.0]
         assert names["load"].sizes["angle"] == 72

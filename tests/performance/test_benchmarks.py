@@ -80,7 +80,7 @@ def test_the_page_has_every_result_and_works_without_the_yardstick():
         assert words in page
     assert "of the paper's case" not in page
     stages = [other | {"name": f"paper_{stage}_s", "value": 0.5} for stage in STAGES]
-    assert "take 4.00 s" in report.page([row()], stages) and report.page([row()], stages).count("12.5%") == len(STAGES)
+    assert "take 4.50 s" in report.page([row()], stages) and report.page([row()], stages).count("11.1%") == len(STAGES)
     assert "coal, the yardstick, was not installed" in report.page([row(coal_ms=None)], [])
 
 

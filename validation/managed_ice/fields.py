@@ -22,7 +22,7 @@ def drawn(shape: str, size: tuple[float, float], floe: float, concentration: flo
     There are as many as a lattice of squares has, all of one area, whatever their shape: fields of two shapes differ in it alone.
     """
     generator, size = np.random.default_rng(seed), np.asarray(size, float)
-    middles = squares(size, round(concentration * float(np.prod(size)) / floe**2), WALLS)
+    middles = (squares(size, round(concentration * float(np.prod(size)) / floe**2), WALLS) - 0.5) * size
     area = float(np.prod(size)) / len(middles)
     if shape == "square":
         corners = 0.5 * np.sqrt(concentration * area) * np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])

@@ -24,7 +24,7 @@ from dilatedem.state.bodies import bodies_at_rest
 from dilatedem.state.clock import Status, clock_at_start
 from dilatedem.state.loads import empty_loads, no_windows
 from dilatedem.state.pairs import ALONE, empty_pairs, in_use, packed, unpacked
-from dilatedem.state.supports import excursions_at_start
+from dilatedem.state.supports import Excursions, excursions_at_start
 
 CASES = Path(__file__).parents[2] / "cases"
 PILE = {"kind": "pile", "center": [0.0, 0.0]}
@@ -219,7 +219,7 @@ def test_a_watch_comes_back_from_a_checkpoint(tmp_path):
     checkpoint.save(tmp_path / "saved.h5", watch.groups(), {"watch": watch.figures()})
     groups, meta = checkpoint.load(tmp_path / "saved.h5")
     again = Watch(watch.dt)
-    again.restore(groups, meta["watch"], where="saved.h5")
+    again.restore(groups, meta["watch"], Excursions, where="saved.h5")
     assert again.figures() == watch.figures()
     assert [copy.step for copy in (again.before, again.latest, again.worst)] == [1000, 1250, 500]
     for name, group in watch.groups().items():
