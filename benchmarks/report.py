@@ -127,8 +127,8 @@ def _by_stage(rows: list[dict]) -> str:
         "that the list of pairs must be made anew, and that; *foresee*: which bodies nothing can touch for some steps; *drift*: "
         "half a kick and the move of the others; *wake*: which pairs may touch; *collide*: their shapes, distance, patch, "
         "forces; *float*: sums of contacts, buoyancy, drag, the other half of the kick; *record*: ledger, loads on structures, is "
-        "an overlap too deep; *stride*: how many steps busy bodies may take in one, and the steps between; *idle*: the long step of "
-        "bodies that nothing touched."
+        "an overlap too deep; *stride*: how many steps busy bodies may take in one, and what each step notes; *idle*: the "
+        "long step of bodies that nothing touched."
     )
     return "\n\n".join(["## Where the time goes", words, f"![cost of a floe-step by stage]({STAGE})", _table(header, lines)])
 
