@@ -13,8 +13,8 @@ from dilatedem.contact.consistent.four import press_four
 from dilatedem.contact.consistent.line import line_energy, press_edge
 from dilatedem.contact.consistent.point import elliptic, press_vertex
 from dilatedem.contact.consistent.rim import strongest_rim
+from dilatedem.contact.crushing.nominal import nominal_area
 from dilatedem.contact.liu2015.cone import patch_of
-from dilatedem.contact.nominal import nominal_area
 from dilatedem.contact.search.cone import closest
 from dilatedem.contact.search.simplex import closest_on_triangle
 from dilatedem.contact.spring import carried_over, rescaled, slide, viscous_share

@@ -1,6 +1,6 @@
 """One pair of bodies: gap, patch, forces, and the energy that the step cost. The result is written to the pair alone."""
 
-from dilatedem.contact.crushing import remember, worn
+from dilatedem.contact.crushing.depth import remember, worn
 from dilatedem.contact.friction import hold
 from dilatedem.contact.laws import press
 from dilatedem.contact.search.closest import farthest_vertex

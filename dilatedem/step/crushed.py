@@ -1,6 +1,6 @@
 """Ice that has crushed on structures since the start: its volume, and the depth of the deepest dent."""
 
-from dilatedem.contact.crushing import bearing_pressure
+from dilatedem.contact.crushing.depth import bearing_pressure
 from dilatedem.jit import by_type, item
 from dilatedem.state.ledger import LOSS_CRUSHING
 from dilatedem.state.loads import DEPTH, VOLUME

@@ -6,7 +6,7 @@ less than the gap lies between them, as peaks over a threshold are declustered: 
 
 from math import sqrt
 
-from dilatedem.contact.nominal import contact_area
+from dilatedem.contact.crushing.nominal import contact_area
 from dilatedem.jit import item
 from dilatedem.numerics.vector import add, load, store
 from dilatedem.state.hits import (

@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 from dilatedem.contact.consistent.cone import energy_of_pose
 from dilatedem.contact.consistent.dashpot import dashpot
-from dilatedem.contact.crushing import UNTRIED, WHOLE, dearer, note_crushed, settle, worn
+from dilatedem.contact.crushing.depth import UNTRIED, WHOLE, dearer, note_crushed, settle, worn
 from dilatedem.contact.pressed import Pressed
 from dilatedem.contact.search.cone import radius_at
 from dilatedem.jit import device, item

@@ -6,7 +6,7 @@ results, is said in docs/theory.md.
 
 from math import pi, sqrt
 
-from dilatedem.contact.crushing import UNTRIED, WHOLE, note_crushed, settle, worn
+from dilatedem.contact.crushing.depth import UNTRIED, WHOLE, note_crushed, settle, worn
 from dilatedem.contact.liu2015.cone import patch_of, radius_under
 from dilatedem.contact.liu2015.patch import (
     EDGE_CROSSING,

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from dilatedem.contact.crushing import CLOSE, GONE
+from dilatedem.contact.crushing.depth import CLOSE, GONE
 from dilatedem.run.simulation import Simulation
 from dilatedem.state.clock import Status
 from dilatedem.state.pairs import packed, unpacked

@@ -1,7 +1,7 @@
 """Ice that crushes: what it has lost at a contact, and how much more it loses where elasticity asks for more than it can bear.
 
 A contact remembers its crushed depth d. The elastic law sees the reach of both dilations less d, and d grows exactly where its
-force would exceed the pressure p of crushed ice on the nominal area A (`contact.nominal`):
+force would exceed the pressure p of crushed ice on the nominal area A (`nominal`):
 
     F(pose, d) <= p A(pose, d),    d' >= 0,    d' (p A - F) = 0,    p = C (A/1 m2)^q.
 
@@ -14,7 +14,7 @@ the floe, what is left of it there is what still overlaps.
 from math import atan2, exp, inf, log, pi, sqrt
 from typing import NamedTuple
 
-from dilatedem.contact.nominal import nominal_area
+from dilatedem.contact.crushing.nominal import nominal_area
 from dilatedem.jit import by_type, item
 from dilatedem.numerics.rotation import rotation_matrix, to_body
 from dilatedem.numerics.vector import along, cross, dot, load, norm, sub

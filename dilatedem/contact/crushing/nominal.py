@@ -11,9 +11,10 @@ bound it where the outer size of the body ends: the height of a floe's side is i
 
 from math import inf, sqrt
 
+from dilatedem.contact.clip import reaches_past
+from dilatedem.contact.crushing.section import ASKEW, DIRECTION, EDGE, OFFSET, cut, measure
 from dilatedem.contact.search.closest import farthest_vertex
 from dilatedem.contact.search.cone import radius_at
-from dilatedem.contact.section import ASKEW, DIRECTION, EDGE, OFFSET, cut, measure, reaches_past
 from dilatedem.geometry.shapes import TaperedShapes
 from dilatedem.jit import by_type, device
 from dilatedem.numerics.vector import add, along, cross, dot, load, norm, scale, sub, tangents

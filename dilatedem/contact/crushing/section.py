@@ -1,6 +1,6 @@
 """A convex polygon that half planes leave of the contact plane, with rounded corners: cut, and measured.
 
-The half planes of both bodies, and how their edges are rounded in plan, are those of `contact.nominal`.
+The half planes of both bodies, and how their edges are rounded in plan, are those of `nominal`.
 """
 
 from math import atan2, pi, sqrt
@@ -26,15 +26,6 @@ def _missing(sine, cosine, one_body):
     if one_body:
         return (sine - 0.5 * (1.0 + cosine) * atan2(sine, cosine)) / (1.0 + max(cosine, NEEDLE))
     return (1.0 - 0.25 * pi) * sine * (1.0 + ASKEW * ASKEW) / (sine * sine + ASKEW * ASKEW)
-
-
-@device
-def reaches_past(polygon, count, u, v, offset):
-    """Whether some corner of a polygon lies beyond u x + v y = offset."""
-    for i in range(count):
-        if u * polygon[i, 0] + v * polygon[i, 1] > offset:
-            return True
-    return False
 
 
 @device
