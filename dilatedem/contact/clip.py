@@ -9,6 +9,15 @@ from dilatedem.jit import device
 
 
 @device
+def reaches_past(polygon, count, u, v, offset):
+    """Whether some corner of a polygon lies beyond u x + v y = offset."""
+    for i in range(count):
+        if u * polygon[i, 0] + v * polygon[i, 1] > offset:
+            return True
+    return False
+
+
+@device
 def clip_polygon(source, count, target, a, b, c, d):
     """Keep the part of a polygon where a u + b v + c h <= d; returns its corner count in `target`."""
     kept = 0

@@ -11,6 +11,9 @@ from dilatedem.state.modes import Feature
 #: it a contact is a patch (Liu 2015, Eqs. (18), (19), (24)), beyond it a crossing or a corner; the paper prints cos = 1, cos = 0.
 PARALLEL = 0.02
 
+#: cosine of an angle well beyond it: most faces look elsewhere, and need no second look
+NEARLY = 0.9
+
 VERTEX, EDGE, FACE = int(Feature.VERTEX), int(Feature.EDGE), int(Feature.FACE)
 
 
@@ -25,7 +28,7 @@ def support_feature(vertex, face_normal, shapes, body, corner, corners, directio
     face = -1
     for f in range(shapes.face_start[body], shapes.face_start[body + 1]):
         d = load(face_normal, f)
-        if dot(d, direction) > 0.0:
+        if dot(d, direction) > NEARLY:
             c = cross(d, direction)  # not the cosine: it cannot tell small angles apart
             sine2 = dot(c, c)
             if sine2 <= best:

@@ -9,8 +9,9 @@ item         a stage of the step, or the work on one body or pair: merged into w
 device       any other function that kernels call
 shared_loop  a `prange` over blocks
 
-and `by_type`, which chooses among functions while a kernel is compiled. Two things have no public way and are left out where Numba
-does not offer them: saving machine code one process after the other (`cache.tend_cache`), asking what is on disk (`is_cached`).
+and `by_type`, which chooses among functions while a kernel is compiled. Some things have no public way and are left out where Numba
+does not offer them: saving machine code one process after the other and loading it without what compiles (`cache.tend_cache`),
+asking what is on disk (`is_cached`), indices that nobody looks at (`indices`).
 """
 
 from dilatedem.jit.cache import LOCK, is_cached, source_digest

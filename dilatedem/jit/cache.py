@@ -104,6 +104,7 @@ import numba  # noqa: E402  (the cache folder must be known first)
 from llvmlite.binding import parse_assembly, parse_bitcode  # noqa: E402
 
 from dilatedem.garbage import seldom_collected  # noqa: E402
+from dilatedem.jit.inside import inside  # noqa: E402
 
 # a program that imported Numba before has it configured already, with the cache beside the sources: there, code goes stale
 numba.config.CACHE_DIR = os.environ["NUMBA_CACHE_DIR"]
@@ -139,6 +140,17 @@ def _without_intermediate_code(payload):
         return payload
 
 
+def _loaded(cache, load, signature, context):
+    """Machine code from the disk as `load` finds it, without all that Numba makes ready for compiling first, a third of a second:
+    code that is there needs no more than Numba's memory of arrays. Numba makes ready for compiling where something is compiled.
+    """
+    memory, straight = getattr(inside("core.runtime"), "rtsys", None), getattr(cache, "_load_overload", None)
+    if not hasattr(memory, "initialize") or straight is None:
+        return load(signature, context)
+    memory.initialize(context)
+    return straight(signature, context)
+
+
 def tend_cache(dispatcher) -> None:
     """Have a kernel's machine code saved in `turn`, that alone, and loaded while Python looks for garbage seldom.
 
@@ -153,9 +165,9 @@ def tend_cache(dispatcher) -> None:
         with suppress(OSError), turn(Path(folder)):  # a full disk: the next run compiles again
             save(*arguments)
 
-    def load_overload(*arguments):
+    def load_overload(signature, context):
         with suppress(OSError), seldom_collected():  # a disk that cannot be read: compiled again
-            return load(*arguments)
+            return _loaded(cache, load, signature, context)
         return None
 
     cache.save_overload, cache.load_overload = save_overload, load_overload

@@ -10,6 +10,7 @@ from numba.extending import overload
 
 from dilatedem.garbage import seldom_collected
 from dilatedem.jit.cache import tend_cache
+from dilatedem.jit.indices import IndicesAsTheyAre
 
 _OPTIONS = {"error_model": "numpy", "_nrt": False}
 #: Python never calls what kernels call: without the wrappers for that, compiling takes a third less
@@ -35,6 +36,7 @@ class _SeldomCollected(event.Listener):
 
 
 event.register("numba:compile", _SeldomCollected())
+event.register("numba:compile", IndicesAsTheyAre())
 
 
 def kernel(function):

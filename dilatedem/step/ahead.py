@@ -6,6 +6,8 @@ asked for here is not read: it changes no number, and nothing may wait.
 
 from dilatedem.jit import item, prefetch
 
+#: pairs whose data the processor has at hand by itself: 0.4 MB of rows, and as much of their bodies
+AT_HAND = 1000
 #: cache lines of a pair's row
 PAIR_LINES = 6
 #: pairs between the one that is evaluated and the one whose data are asked for

@@ -14,7 +14,7 @@ from dilatedem.motion.carry import carried_travel
 from dilatedem.motion.integrate import drift, kick
 from dilatedem.motion.paces import LONGEST_MOVE
 from dilatedem.state.response import is_free, is_joined, stride_of
-from dilatedem.step.ahead import fetch_ahead
+from dilatedem.step.ahead import AT_HAND, fetch_ahead
 from dilatedem.water.loads import body_loads, wet_bodies
 
 
@@ -65,7 +65,8 @@ def collide_block(
         tally.deep[p] = -1
         start, end = part(count, p, len(tally.deep))
         for w in range(start, end):
-            fetch_ahead(block, w, last, shapes, solids, bodies, pairs, workspace)
+            if count > AT_HAND:
+                fetch_ahead(block, w, last, shapes, solids, bodies, pairs, workspace)
             k = workspace.awake[w]
             _turn_shapes(block, k, shapes, bodies.orientation, pairs, workspace)
             steps = stride_of(pairs.a[k], pairs.b[k], workspace)

@@ -10,7 +10,7 @@ import subprocess
 import sys
 import threading
 from pathlib import Path
-from types import SimpleNamespace
+from types import FunctionType, SimpleNamespace
 
 import numba
 import numpy as np
@@ -137,18 +137,35 @@ def test_machine_code_is_kept_though_its_folder_was_removed_meanwhile(tmp_path, 
 def test_a_kernel_from_the_disk_gives_what_it_gave_when_compiled_and_is_machine_code_alone(tmp_path, monkeypatch):
     module = tmp_path / "quadrupling.py"
     module.write_text("from dilatedem.jit import kernel\n\n\n@kernel\ndef quadrupled(x):\n    return 4.0 * x\n", encoding="utf-8")
-    program = "from quadrupling import quadrupled as q; print(q(2.0), q(3.0), len(q.stats.cache_hits))"
+    program = (
+        "import sys\nfrom quadrupling import quadrupled as q\nprint(q(2.0), q(3.0), len(q.stats.cache_hits))\n"
+        "print('compiles' if 'numba.np.linalg' in sys.modules else 'loads')"
+    )
     environment = os.environ | {"NUMBA_CACHE_DIR": str(tmp_path / "cache"), "PYTHONPATH": f"{tmp_path}{os.pathsep}{ROOT}"}
     told = [
         subprocess.run([sys.executable, "-c", program], env=environment, capture_output=True, text=True, check=True).stdout.split()
         for _ in range(2)
     ]
-    assert told == [["8.0", "12.0", "0"], ["8.0", "12.0", "1"]]
+    assert told == [["8.0", "12.0", "0", "compiles"], ["8.0", "12.0", "1", "loads"]]
     (saved,) = (tmp_path / "cache").rglob("*.nbc")
     monkeypatch.syspath_prepend(tmp_path)
     code = pickle.loads(saved.read_bytes())[0]
     names = str(parse_bitcode(code[2][1]))
     assert "quadrupled" in names and "unreachable" in names and "fmul" not in names
+
+
+def _one_before(array):
+    """What stands before the first entry, where indices are taken as they are; the last one, where they are looked at."""
+    return array[len(array) - 5]
+
+
+@pytest.mark.parametrize(("module", "found"), [("dilatedem.somewhere", 10.0), ("elsewhere", 50.0)])
+def test_indices_of_this_package_alone_are_taken_as_they_are(module, found):
+    function = FunctionType(_one_before.__code__, globals(), f"one_before_{module.replace('.', '_')}")
+    function.__module__ = module
+    whole = np.array([10.0, 20.0, 30.0, 40.0, 50.0])
+    assert numba.njit(function)(whole[1:]) == found
+    assert numba.njit(lambda array: array[-2])(whole) == 40.0, "whatever was compiled before"
 
 
 def _four_sums(array, i):

@@ -29,11 +29,12 @@ def rubbed(contact, dt, opened, old, new, slid, turned, slipped):
     """
     (old_stiffness, before, _), (stiffness, slip, _) = old, new
     made = 0.0
-    held = stiffness * norm(slip)
-    held_before = held
     if not opened:
         made = 0.5 * (stiffness - old_stiffness) * dot(before, slip)
-        held_before = old_stiffness * norm(before)
+    if slipped == 0.0:
+        return 0.0, made
+    held = stiffness * norm(slip)
+    held_before = held if opened else old_stiffness * norm(before)
     return 0.5 * (held + held_before) * slipped, made
 
 

@@ -7,7 +7,7 @@ half-width of the Hertz contact of its own rounded rim is none: a sliver of a fa
 
 from math import sqrt
 
-from dilatedem.contact.clip import clip_interval, clip_polygon, polygon_centroid
+from dilatedem.contact.clip import clip_interval, clip_polygon, polygon_centroid, reaches_past
 from dilatedem.contact.support import EDGE, FACE, PARALLEL, VERTEX, corner_feature, support_feature
 from dilatedem.jit import device, item
 from dilatedem.numerics.vector import add, along, cross, dot, load, norm, scale, sub, tangents
@@ -41,16 +41,18 @@ def _clip_by_face(vertex, shapes, face, origin, t1, t2, turn, rim, source, count
     Returns count, side."""
     first, last = shapes.loop_start[face], shapes.loop_start[face + 1]
     swapped = False
+    q = add(origin, load(vertex, shapes.loop[first]))
+    qu, qv = dot(q, t1), dot(q, t2)
     for i in range(first, last):
-        p = add(origin, load(vertex, shapes.loop[i]))
+        pu, pv = qu, qv
         q = add(origin, load(vertex, shapes.loop[i + 1 if i + 1 < last else first]))
-        pu, pv = dot(p, t1), dot(p, t2)
-        eu, ev = turn * (dot(q, t1) - pu), turn * (dot(q, t2) - pv)
+        qu, qv = dot(q, t1), dot(q, t2)
+        eu, ev = turn * (qu - pu), turn * (qv - pv)
         limit = ev * pu - eu * pv + rim * (abs(eu) + abs(ev))
-        if swapped:
-            count = clip_polygon(target, count, source, ev, -eu, 0.0, limit)
-        else:
-            count = clip_polygon(source, count, target, ev, -eu, 0.0, limit)
+        if not reaches_past(source, count, ev, -eu, limit):
+            continue
+        count = clip_polygon(source, count, target, ev, -eu, 0.0, limit)
+        source, target = target, source
         swapped = not swapped
         if count == 0:
             break
@@ -69,7 +71,8 @@ def face_plane(vertex, face_normal, shapes, face, origin, normal, t1, t2, radius
 
 @item
 def _face_on_face(vertex, shapes, face_a, face_b, offset, normal, t1, t2, ra, plane, rim, scratch):
-    """Penetrating polygon of two faces: area, extent, width before the gap was looked at, centroid u, v, height of a there.
+    """Penetrating polygon of two faces: area, extent, centroid u, v, height of a there, and the polygon before the gap was looked
+    at, with its corner count.
 
     plane: height of b's dilated surface h0, hu, hv; face_b < 0: it has no sides.
     """
@@ -84,12 +87,17 @@ def _face_on_face(vertex, shapes, face_a, face_b, offset, normal, t1, t2, ra, pl
         count, swapped = _clip_by_face(vertex, shapes, face_b, offset, t1, t2, -1.0, rim, source, count, target)
     if swapped:
         source, target = target, source
-    whole, _, _, _, extent = polygon_centroid(source, count)
-    width = whole / extent if extent > 0.0 else 0.0
     h0, hu, hv = plane
-    count = clip_polygon(source, count, target, hu, hv, -1.0, -h0)
-    area, u, v, h, extent = polygon_centroid(target, count)
-    return area, extent, width, u, v, h
+    kept = clip_polygon(source, count, target, hu, hv, -1.0, -h0)
+    area, u, v, h, extent = polygon_centroid(target, kept)
+    return area, extent, u, v, h, source, count
+
+
+@device
+def _is_narrow(polygon, count, narrow):
+    """Whether a polygon is narrower than `narrow` [m]."""
+    area, _, _, _, extent = polygon_centroid(polygon, count)
+    return extent <= 0.0 or area / extent < narrow
 
 
 @item
@@ -177,14 +185,17 @@ def contact_patch(
             plane = face_plane(vertex, face_normal, shapes, m, offset, normal, t1, t2, -rb)
 
     if kind_a == FACE and kind_b == FACE:
-        area, extent, width, u, v, h = _face_on_face(vertex, shapes, i, m, offset, normal, t1, t2, ra, plane, rim, scratch)
+        area, extent, u, v, h, common, sides = _face_on_face(
+            vertex, shapes, i, m, offset, normal, t1, t2, ra, plane, rim, scratch
+        )
         if area > 0.0:
             hb = plane[0] + plane[1] * u + plane[2] * v
             point = along(along(scale(u, t1), v, t2), 0.5 * (h + hb), normal)
             if area >= narrow * extent:
                 return FACE_FACE, True, point, h - hb, area, 0.0
             if extent >= narrow:
-                return (EDGE_PARALLEL if width < narrow else EDGE_FACE), a_lower, point, h - hb, extent, 0.0
+                mode = EDGE_PARALLEL if _is_narrow(common, sides, narrow) else EDGE_FACE
+                return mode, a_lower, point, h - hb, extent, 0.0
             return VERTEX_FACE, a_lower, point, overlap, 1.0, 0.0
     elif kind_a == EDGE and kind_b == FACE:
         p, q = load(vertex, i), load(vertex, j)

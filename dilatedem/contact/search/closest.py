@@ -36,6 +36,20 @@ def farthest_vertex(vertex, first, last, d):
     return best, reach
 
 
+@device
+def _height_uphill(vertex, shapes, start, d):
+    """How far along d a convex core reaches, but for round-off: from one vertex along edges that lead farther."""
+    best, here = start, -1
+    reach = dot(load(vertex, start), d)
+    while here != best:
+        here = best
+        for p in range(shapes.neighbour_start[here], shapes.neighbour_start[here + 1]):
+            h = dot(load(vertex, shapes.neighbour[p]), d)
+            if h > reach:
+                best, reach = shapes.neighbour[p], h
+    return reach
+
+
 @item
 def closest_points(vertex, face_normal, shapes, pairs, k, a, b, offset):
     """Signed distance of the cores of pair k, unit normal from a to b, and the witness points on a and b.
@@ -106,13 +120,17 @@ def closest_points(vertex, face_normal, shapes, pairs, k, a, b, offset):
             ca[k, 0], _ = farthest_vertex(vertex, a0, a1, normal)
             cb[k, 0], _ = farthest_vertex(vertex, b0, b1, scale(-1.0, normal))
             return -depth, normal, pa, pb
+        back, noise = (-v[0], -v[1], -v[2]), ROUND_OFF * (shapes.reach[a] + shapes.reach[b]) * sqrt(v2)
+        ha, hb = _height_uphill(vertex, shapes, ca[k, 0], v), _height_uphill(vertex, shapes, cb[k, 0], back)
+        if v2 - (dot(v, offset) - hb - ha) <= CONVERGED * v2 - noise:
+            break
         i, ha = farthest_vertex(vertex, a0, a1, v)
-        j, hb = farthest_vertex(vertex, b0, b1, (-v[0], -v[1], -v[2]))
+        j, hb = farthest_vertex(vertex, b0, b1, back)
         before = v2 - (dot(v, offset) - hb - ha)
         if before <= CONVERGED * v2:
             break
         # no nearer, but perhaps turned: a corner that lies before the plane square to v by more than round-off is still to come
-        if v2 >= last and before <= ROUND_OFF * (shapes.reach[a] + shapes.reach[b]) * sqrt(v2):
+        if v2 >= last and before <= noise:
             break
         last = v2
         known = i == newest_a and j == newest_b
