@@ -21,6 +21,7 @@ from dilatedem.run.faults import fault
 from dilatedem.run.observers import RunFolder
 from dilatedem.run.restore import load_checkpoint, require_same_run
 from dilatedem.run.simulation import Simulation
+from dilatedem.scene.place import Scene
 from dilatedem.state.clock import Status
 
 #: steps between two looks at the keyboard and the progress bar, where no output is due earlier
@@ -31,11 +32,12 @@ _READY: set[tuple] = set()
 
 def run(
     case: Case, out: Path, *, threads: int = 1, resume: bool = False, overwrite: bool = False, quiet: bool = False,
-    progress: Progress | None = None, interruption: Interruption | None = None,
+    progress: Progress | None = None, interruption: Interruption | None = None, scene: Scene | None = None,
 ) -> Path:
     """Simulate a case into the run folder `out`; returns it. A run of the same case that the folder holds goes on.
 
-    progress, interruption: those of the run, unless it has its own (a bar unless `quiet`, signals).
+    progress, interruption: those of the run, unless it has its own (a bar unless `quiet`, signals). scene: that of the case, where
+    it was made before.
     Raises CaseError (nothing written), SimulationStopped or Interrupted (state saved).
     """
     out = Path(out)
@@ -48,7 +50,7 @@ def run(
             layer = start_threads(threads)
         except ValueError as fault:
             raise CaseError(f"--{fault}") from fault
-        simulation = Simulation.of_case(case, threads=threads)
+        simulation = Simulation.of_case(case, threads=threads, scene=scene)
         if not resume:
             simulation.require_apart()
         with Lock(out) as lock:

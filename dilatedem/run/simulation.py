@@ -110,9 +110,9 @@ class Simulation:
         self.make_room()
 
     @classmethod
-    def of_case(cls, case: Case, *, threads: int = 1) -> "Simulation":
-        """A case at t = 0. Raises CaseError for what only building it can tell."""
-        scene = compose(case)
+    def of_case(cls, case: Case, *, threads: int = 1, scene: Scene | None = None) -> "Simulation":
+        """A case at t = 0, of its scene where that was made before. Raises CaseError for what only building it can tell."""
+        scene = scene or compose(case)
         if not scene.count:
             raise CaseError("the case has no bodies: no floe is clear of the structures, and there is no [[body]]")
         beyond = [n for n in (case.output.track if case.output.track != "all" else []) if n >= scene.count]

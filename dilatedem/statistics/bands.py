@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
-from scipy import stats
+from scipy import special  # scipy.stats takes half a second to load
 
 CONFIDENCE = 0.95
 #: chance that a band lies wholly above, and wholly below, what it is to hold
@@ -61,7 +61,7 @@ def mean(values: Iterable[float]) -> Band:
     spread = float(x.std(ddof=1))
     if spread == 0.0:
         return Band(n, centre, centre, centre)
-    reach = float(stats.t.ppf(1.0 - TAIL, n - 1)) / math.sqrt(n)
+    reach = student(1.0 - TAIL, n - 1) / math.sqrt(n)
     most = min(MOST_SKEWNESS, UNFOLDED / reach)
     third = min(max(skewness(x), -most), most) / 3.0
     ends = [centre - spread * _untransformed(side * reach, third, n) for side in (1.0, -1.0)]
@@ -76,10 +76,32 @@ def _untransformed(reach: float, third: float, n: int) -> float:
     return (math.copysign(abs(1.0 + 3.0 * third * shifted) ** (1.0 / 3.0), 1.0 + 3.0 * third * shifted) - 1.0) / third
 
 
+def student(share: float, freedom: float | np.ndarray) -> float | np.ndarray:
+    """What a share of values of Student's law stays below."""
+    return special.stdtrit(freedom, share)
+
+
+def chi_square(share: float, freedom: float) -> float:
+    """What a share of values of the chi-square law stays below."""
+    return 2.0 * float(special.gammaincinv(0.5 * freedom, share))
+
+
+def _moment(x: np.ndarray, order: int) -> float:
+    return float(np.mean((x - x.mean()) ** order))
+
+
 def skewness(x: np.ndarray) -> float:
     """Unbiased for a normal law (Fisher and Pearson's adjusted one); 0 where it cannot be told."""
-    found = float(stats.skew(x, bias=False)) if len(x) > 2 else 0.0
+    n, variance = len(x), _moment(x, 2) if len(x) > 2 else 0.0
+    found = math.sqrt(n * (n - 1)) / (n - 2) * _moment(x, 3) / variance**1.5 if variance > 0.0 else 0.0
     return found if math.isfinite(found) else 0.0
+
+
+def excess_kurtosis(x: np.ndarray) -> float:
+    """Unbiased for a normal law, of four values or more that are not all alike."""
+    n = len(x)
+    biased = _moment(x, 4) / _moment(x, 2) ** 2 - 3.0
+    return (n - 1) / ((n - 2) * (n - 3)) * ((n + 1) * biased + 6.0)
 
 
 def difference(one: Iterable[float], other: Iterable[float]) -> Band:
@@ -96,7 +118,7 @@ def difference(one: Iterable[float], other: Iterable[float]) -> Band:
     if sum(shares) == 0.0:
         return Band(n, between, between, between)
     freedom = sum(shares) ** 2 / sum(share**2 / (len(x) - 1) for share, x in zip(shares, (a, b), strict=True))
-    reach = float(stats.t.ppf(1.0 - TAIL, freedom)) * math.sqrt(sum(shares))
+    reach = student(1.0 - TAIL, freedom) * math.sqrt(sum(shares))
     return Band(n, between, between - reach, between + reach)
 
 
@@ -114,9 +136,9 @@ def deviation(values: Iterable[float]) -> Band:
         return Band(n, spread, 0.0)
     if spread == 0.0:
         return Band(n, spread, 0.0, 0.0)
-    excess = max(2.0 * skewness(x) ** 2, float(stats.kurtosis(x, bias=False)))
+    excess = max(2.0 * skewness(x) ** 2, excess_kurtosis(x))
     freedom = 2.0 / (2.0 / (n - 1) + max(excess, -1.5) / n)
-    low, high = (spread * math.sqrt(freedom / float(stats.chi2.ppf(share, freedom))) for share in (1.0 - TAIL, TAIL))
+    low, high = (spread * math.sqrt(freedom / chi_square(share, freedom)) for share in (1.0 - TAIL, TAIL))
     return Band(n, spread, low, high)
 
 
@@ -154,7 +176,7 @@ def enough_for(share: float) -> int:
 def _low_end(x: np.ndarray, share: float, tail: float) -> float:
     """Below which the quantile lies with a chance of `tail`; x (n,) ascending."""
     n = len(x)
-    below = stats.binom.sf(np.arange(n), n, share)  # chance that the 1st, 2nd, ... smallest lies below the quantile
+    below = special.bdtrc(np.arange(n), n, share)  # chance that the 1st, 2nd, ... smallest lies below the quantile
     rank = int(np.sum(below >= 1.0 - tail))
     if rank == 0:
         return -math.inf

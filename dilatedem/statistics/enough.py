@@ -6,9 +6,8 @@ import math
 from collections.abc import Callable, Sequence
 
 import numpy as np
-from scipy import stats
 
-from dilatedem.statistics.bands import FEWEST, TAIL, Band, mean, sample
+from dilatedem.statistics.bands import FEWEST, TAIL, Band, mean, sample, student
 
 #: more values than anybody will have are not told
 MOST = 100_000
@@ -30,5 +29,5 @@ def needed(values: Sequence[float], share: float) -> int | None:
         return None
     allowed = share * abs(float(x.mean())) / float(x.std(ddof=1)) if x[0] < x[-1] else math.inf
     counts = np.arange(FEWEST, MOST)
-    close = stats.t.ppf(1.0 - TAIL, counts - 1) <= allowed * np.sqrt(counts)
+    close = student(1.0 - TAIL, counts - 1) <= allowed * np.sqrt(counts)
     return int(counts[np.argmax(close)]) if close.any() else None

@@ -6,9 +6,8 @@ import math
 from collections.abc import Callable
 
 import numpy as np
-from scipy import optimize, stats
 
-from dilatedem.statistics.bands import TAIL
+from dilatedem.statistics.bands import TAIL, student
 
 #: what stands for a likelihood of 0; times more than 1, the farther from what is possible, so that searches find their way back
 IMPOSSIBLE = 1e12
@@ -24,6 +23,8 @@ SHAPES = (-0.9, 2.0)
 
 def minimum(cost: Callable[[np.ndarray], float], start: list[float]) -> tuple[float, np.ndarray]:
     """Least cost and where it is, from a start nearby."""
+    from scipy import optimize  # only where a law is fitted: it takes a quarter of a second to load
+
     corners = np.vstack([start, np.asarray(start) + SEARCH * np.eye(len(start))])
     found = optimize.minimize(cost, start, method="Nelder-Mead", options={"initial_simplex": corners, "maxiter": 800, **CLOSE})
     return float(found.fun), found.x
@@ -31,7 +32,7 @@ def minimum(cost: Callable[[np.ndarray], float], start: list[float]) -> tuple[fl
 
 def critical(n: int, parameters: int) -> float:
     """What twice the log-likelihood may lack at the ends of a band: chi-square of one degree, by Student's law for few values."""
-    return float(stats.t.ppf(1.0 - TAIL, max(n - parameters, 1))) ** 2
+    return float(student(1.0 - TAIL, max(n - parameters, 1))) ** 2
 
 
 def profile_ends(lacking: Callable[[float], float], best: float, scale: float, limit: float) -> tuple[float, float]:

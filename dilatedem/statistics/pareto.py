@@ -7,9 +7,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
-from scipy import stats
 
-from dilatedem.statistics.bands import TAIL, Band, sample
+from dilatedem.statistics.bands import TAIL, Band, chi_square, sample
 from dilatedem.statistics.likelihood import IMPOSSIBLE, SHAPES, critical, minimum, profile_ends
 
 #: with fewer hits above the threshold no law is fitted
@@ -87,7 +86,7 @@ def fit_pareto(peaks: Iterable[float], threshold: float, runs: int) -> Pareto | 
         return 2.0 * (found - least)
 
     ends = profile_ends(lacking, float(shape), 0.2, critical(count, 2))
-    low, high = (float(stats.chi2.ppf(share, freedom)) / 2.0 for share, freedom in ((TAIL, 2 * count), (1.0 - TAIL, 2 * count + 2)))
+    low, high = (chi_square(share, freedom) / 2.0 for share, freedom in ((TAIL, 2 * count), (1.0 - TAIL, 2 * count + 2)))
     return Pareto(
         peaks=x, threshold=threshold, runs=runs, rate=Band(runs, count / runs, low / runs, high / runs), scale=math.exp(log_scale),
         shape=Band(count, float(shape), *ends), chance=fit_chance(over),
@@ -112,6 +111,8 @@ def _unlikelihood(over: np.ndarray, scale: float, shape: float) -> float:
 
 def fit_chance(over: np.ndarray) -> float:
     """Chance that peaks of this law lie as far from the one that is fitted to them: by samples of that law."""
+    from scipy import stats  # only where a law is fitted: it takes half a second to load
+
     rows = np.random.default_rng(1).uniform(size=(RESAMPLES, len(over)))
     rows.sort(axis=1)
     _, shape = (float(part[0]) for part in moments_of_rows(over[None, :]))
@@ -130,6 +131,8 @@ def moments_of_rows(rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 def _distance(rows: np.ndarray) -> np.ndarray:
     """Anderson and Darling's distance (rows,) of every row (rows, n), ascending, from the law fitted to it."""
+    from scipy import stats
+
     n = rows.shape[1]
     scale, shape = (part[:, None] for part in moments_of_rows(rows))
     below = np.clip(stats.genpareto.cdf(rows, shape, scale=scale), 1e-12, 1.0 - 1e-12)

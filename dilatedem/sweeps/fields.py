@@ -8,12 +8,19 @@ from dilatedem.case.schema import Case
 from dilatedem.errors import CaseError
 from dilatedem.output import folder
 from dilatedem.run.simulation import Simulation
+from dilatedem.scene.place import Scene
 from dilatedem.sweeps.plan import Job
 
 #: s of wall time for which fields are made, unless all of them are asked for
 LOOK_S = 5.0
+#: floes of all scenes together that are kept for the runs, which are copies of this process: some 100 MB
+MOST_KEPT = 20_000
 #: sections of a case that no field depends on
 INDIFFERENT = {"title", "contact", "time", "output"}
+
+
+#: scenes that were made to try their fields, by the case
+_KEPT: dict[str, Scene] = {}
 
 
 def require_fields(todo: Sequence[Job], *, every: bool = False, clock: Callable[[], float] = time.monotonic) -> str:
@@ -36,9 +43,22 @@ def require_fields(todo: Sequence[Job], *, every: bool = False, clock: Callable[
 
 def _require_field(job: Job) -> None:
     try:
-        Simulation.of_case(job.case).require_apart()
+        simulation = Simulation.of_case(job.case)
+        simulation.require_apart()
     except CaseError as error:
         raise CaseError(f"{job.folder.name}: {error}") from None
+    if sum(scene.count for scene in _KEPT.values()) + simulation.scene.count <= MOST_KEPT:
+        _KEPT[_named(job.case)] = simulation.scene
+
+
+def scene_at_hand(case: Case) -> Scene | None:
+    """The scene of a case, where this process, or the one that it is a copy of, made it to try its field."""
+    return _KEPT.get(_named(case)) if _KEPT else None
+
+
+def _named(case: Case) -> str:
+    """A case in words."""
+    return json.dumps(case.model_dump(), default=str)
 
 
 def _field_of(case: Case) -> str:

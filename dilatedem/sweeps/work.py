@@ -11,6 +11,7 @@ from dilatedem.garbage import seldom_collected
 from dilatedem.processes.children import Answer
 from dilatedem.processes.interruption import Interruption
 from dilatedem.run.loop import run
+from dilatedem.sweeps.fields import scene_at_hand
 from dilatedem.sweeps.orders import Order
 
 #: s between two words on how far a run is
@@ -47,7 +48,10 @@ def simulate(order: Order, tell: Callable[[float], None], interruption: Interrup
         with seldom_collected():
             case = build(Source("<sweep>", order.case))
             told = Share(case.time.duration, tell)
-            run(case, Path(order.out), resume=order.resume, overwrite=order.overwrite, progress=told, interruption=interruption)
+            run(
+                case, Path(order.out), resume=order.resume, overwrite=order.overwrite, progress=told, interruption=interruption,
+                scene=scene_at_hand(case),
+            )  # fmt: skip
     except BaseException as error:
         known = ending(error, can_resume=True)
         return Answer(known[1], known[0]) if known else Answer(1, traceback.format_exc())

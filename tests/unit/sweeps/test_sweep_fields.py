@@ -2,11 +2,13 @@
 
 from itertools import count
 
+import numpy as np
 import pytest
 
 from dilatedem.errors import CaseError
+from dilatedem.scene.place import compose
 from dilatedem.sweeps import fields
-from dilatedem.sweeps.fields import LOOK_S, require_fields
+from dilatedem.sweeps.fields import LOOK_S, require_fields, scene_at_hand
 from dilatedem.sweeps.plan import plan
 from tests.regression.folders import CASES, in_process
 
@@ -56,3 +58,14 @@ def test_a_field_that_cannot_be_made_is_told_before_anything_is_written(tmp_path
         assert not (tmp_path / "out").exists()
     with pytest.raises(CaseError):
         require_fields(plan(CROWDED, vary=["structure.0.radius=0.5,500"], out=tmp_path))
+
+
+def test_scenes_that_were_made_to_be_tried_are_those_of_the_runs(tmp_path, monkeypatch):
+    monkeypatch.setattr(fields, "_KEPT", {})
+    one, two = (job.case for job in plan(CROWDED, seeds=2, out=tmp_path))
+    monkeypatch.setattr(fields, "MOST_KEPT", compose(one).count + 1)
+    require_fields(plan(CROWDED, seeds=2, out=tmp_path))
+    kept = scene_at_hand(one)
+    np.testing.assert_array_equal(kept.position, compose(one).position)
+    assert scene_at_hand(two) is None, "no room for a second one"
+    assert scene_at_hand(one.model_copy(update={"title": "another"})) is None
