@@ -6,7 +6,7 @@ from pathlib import Path
 
 from benchmarks import others, plots, report, results
 from benchmarks.measure import Plan, line, rows_of
-from benchmarks.scenes import MODELS, SCENES
+from benchmarks.scenes import ALL, MODELS
 from benchmarks.targets import targets
 
 HERE = Path(__file__).parent
@@ -28,7 +28,7 @@ def arguments(given: Sequence[str] | None = None) -> argparse.Namespace:
         "configuration in --out.", epilog=_EXAMPLES, formatter_class=argparse.RawDescriptionHelpFormatter,
     )  # fmt: skip
     which = parser.add_argument_group("scenes (measured unless only other figures are asked for)")
-    which.add_argument("--scenes", nargs="+", choices=SCENES, metavar="SCENE", help=f"of {', '.join(SCENES)}; default all")
+    which.add_argument("--scenes", nargs="+", choices=ALL, metavar="SCENE", help=f"of {', '.join(ALL)}; default all")
     which.add_argument("--models", nargs="+", choices=MODELS, metavar="MODEL", help=f"of {', '.join(MODELS)}; default both")
     which.add_argument("--sizes", nargs="+", type=_positive, metavar="FLOES", help="default 200 2000 10000 100000")
     which.add_argument("--threads", nargs="+", type=_positive, metavar="N", help="default 1 2")
@@ -58,7 +58,7 @@ def plan_of(options: argparse.Namespace) -> Plan | None:
         return None
     sizes, threads, rounds = ((200,), (1,), 1) if options.quick else (Plan.sizes, Plan.threads, Plan.rounds)
     return Plan(
-        tuple(options.scenes or SCENES), tuple(options.models or MODELS), tuple(options.sizes or sizes),
+        tuple(options.scenes or ALL), tuple(options.models or MODELS), tuple(options.sizes or sizes),
         tuple(options.threads or threads), options.repeats or Plan.repeats, options.rounds or rounds,
     )  # fmt: skip
 

@@ -95,6 +95,19 @@ print("large", simulation.model.floating, (time.perf_counter() - began) / 10)
 """
 
 
+#: steps of a packed field of 2000 floes
+_BUSY = """
+import sys, time
+from benchmarks.scenes import packed_field
+from dilatedem.jit import start_threads
+threads = int(sys.argv[1])
+start_threads(threads)
+simulation = packed_field(2000, "liu2015", threads=threads)
+began = time.perf_counter()
+simulation.advance(1000)
+print("busy", (time.perf_counter() - began) / 1000)
+"""
+
 #: has a process tell its peak memory, kB, at its end. What `wait4` says of a child begins with the memory of its parent.
 _PEAK = """
 import atexit
@@ -203,4 +216,28 @@ def paper() -> list[dict]:
     ]
 
 
-OTHERS = {"start": start, "files": files, "memory": memory, "generate": generate, "paper": paper}
+def sweep() -> list[dict]:
+    """Wall time of a sweep of eight seeds of the paper's case, 10 s each, two at a time, compiled kernels at hand."""
+    _run(["-c", "from dilatedem.run.loop import compile_kernels; compile_kernels()"])
+    with tempfile.TemporaryDirectory() as folder:
+        arguments = ["--seeds", "8", "--jobs", "2", "--set", "time.duration=10", "--out", str(Path(folder) / "sweep")]
+        _, spent, _ = _run(["-m", "dilatedem.cli", "sweep", str(PAPER_CASE), *arguments])
+    return [_figure("sweep_s", spent, "s", "dilatedem sweep cases/pile.toml --seeds 8 --jobs 2 --set time.duration=10")]
+
+
+def busy() -> list[dict]:
+    """Speed of two threads over that of one while other processes use all cores: 2000 packed floes."""
+    idlers = [subprocess.Popen([sys.executable, "-c", "while True: pass"]) for _ in range(os.cpu_count() or 1)]
+    try:
+        one, two = (min(float(_run(["-c", _BUSY, str(threads)])[0].split()[-1]) for _ in range(3)) for threads in (1, 2))
+    finally:
+        for idler in idlers:
+            idler.kill()
+            idler.wait()
+    note = f"2000 packed floes, a step {1e3 * one:.3g} ms by one thread, {1e3 * two:.3g} ms by two, while others use all cores"
+    return [_figure("busy_two_threads", one / two, "x", note)]
+
+
+OTHERS = {
+    "start": start, "files": files, "memory": memory, "generate": generate, "paper": paper, "sweep": sweep, "busy": busy,
+}  # fmt: skip

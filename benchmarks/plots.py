@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from benchmarks.results import grouped
-from benchmarks.scenes import MODELS, SCENES
+from benchmarks.scenes import ALL, MODELS
 from dilatedem.post.figures.canvas import BLACK, BLUE, GREEN, PNG_DPI, PURPLE, SKY, VERMILION, new_figure, styled
 from dilatedem.step.stages import STAGES
 
@@ -24,15 +24,15 @@ def _save(figure, path: Path) -> None:
 
 def _panels(figure, rows: list[dict]):
     """Axes with their scene, for the scenes that there are results of."""
-    scenes = [scene for scene in SCENES if any(row["scene"] == scene for row in rows)]
+    scenes = [scene for scene in ALL if any(row["scene"] == scene for row in rows)]
     return zip(figure.subplots(1, len(scenes), squeeze=False)[0], scenes, strict=True)
 
 
 @styled
 def cost_by_size(rows: list[dict], path: Path) -> None:
     """us per floe-step against the number of floes: a panel for each scene, a line for each model and number of threads."""
-    figure = new_figure(9.6, 3.4)
-    for axes, scene in _panels(figure, rows):
+    figure = new_figure(10.5, 3.4)
+    for axes, scene in _panels(figure, [row for row in rows if row["scene"] != "rocking"]):  # it has one size
         for model in MODELS:
             for threads, (line, marker) in _LINES.items():
                 mine = sorted(
@@ -56,7 +56,7 @@ def cost_by_size(rows: list[dict], path: Path) -> None:
 @styled
 def cost_by_stage(rows: list[dict], path: Path) -> None:
     """us per floe-step by stage on one thread: a panel for each scene, a bar for each model and size."""
-    figure = new_figure(9.6, 3.8)
+    figure = new_figure(13.0, 3.8)
     mine = [row for row in rows if row["threads"] == 1]
     for axes, scene in _panels(figure, rows):
         here = sorted((row for row in mine if row["scene"] == scene), key=lambda row: (MODELS.index(row["model"]), row["size"]))

@@ -5,7 +5,7 @@ from pathlib import Path
 from benchmarks.others import PAPER_STAGE
 from benchmarks.plots import COST, STAGE
 from benchmarks.results import grouped
-from benchmarks.scenes import MODELS, SCENES
+from benchmarks.scenes import ALL, MODELS, SCENES
 from benchmarks.targets import targets
 from benchmarks.yardstick import PUBLISHED
 from dilatedem.step.stages import STAGES
@@ -17,14 +17,15 @@ Made by `python -m benchmarks`; do not edit. From the repository's root, on an i
 ```sh
 python -m benchmarks           # scenes x models x sizes x threads: results.csv, this page, pictures; about ten minutes
 python -m benchmarks --quick   # 200 floes, one thread, to the screen alone; under a minute
-python -m benchmarks --all     # also start, files, memory, generation, and the paper's case
+python -m benchmarks --all     # also start, files, memory, generation, the paper's case, a sweep, two threads on a busy machine
 ```
 
 Three fixed scenes of 200 floes (`scenes/`), water, friction, contact history, ledger and load record on, open boundaries:
 *drift*, 196 floes at 63 % concentration in a current of 0.3 m/s past a pile; *jam*, the same ice shoved up to the pile; *packed*,
 195 floes at 97 %, at rest, nearly all face on face. Each settles for 0.2 s. Larger sizes are copies of the settled scene side by
-side, each with its pile, so that the work per floe stays what it is. The step is 1e-4 s everywhere;
-floes that nothing can touch take several of them in one, as in any run.
+side, each with its pile, so that the work per floe stays what it is. Two more the program makes itself: *field*, packed floes
+of any number as `generate` numbers them, and *rocking*, 189 floes that a current presses between walls against a pile. The step is
+1e-4 s everywhere; floes that nothing can touch take several of them in one, as in any run.
 
 A figure is the best of all repeats (the median in brackets) of one stretch of steps, run again and again from the same state for at
 least 0.3 s. Repeats come in three rounds, minutes apart, as machines have slow minutes and ratios compare figures of different
@@ -103,7 +104,7 @@ def _by_size(rows: list[dict]) -> str:
     sizes = sorted({row["size"] for row in rows})
     columns = [(size, threads) for size in sizes for threads in (1, 2) if _find(rows, size=size, threads=threads)]
     lines = []
-    for scene in SCENES:
+    for scene in ALL:
         for model in MODELS:
             found = [_find(rows, scene=scene, model=model, size=size, threads=threads) for size, threads in columns]
             if any(found):
@@ -115,7 +116,7 @@ def _by_size(rows: list[dict]) -> str:
 def _by_stage(rows: list[dict]) -> str:
     header = ["", "floes", "contacts", "listed pairs", "awake pairs", "floe-steps/s", "step", *STAGES]
     lines = []
-    for row in sorted(rows, key=lambda row: (SCENES.index(row["scene"]), MODELS.index(row["model"]), row["size"])):
+    for row in sorted(rows, key=lambda row: (ALL.index(row["scene"]), MODELS.index(row["model"]), row["size"])):
         if row["threads"] == 1:
             lines.append([
                 f"{row['scene']}, {row['model']}", grouped(row["floes"]), grouped(row["contacts"]), grouped(row["listed_pairs"]),

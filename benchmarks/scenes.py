@@ -1,8 +1,13 @@
-"""The fixed scenes, as Simulations: 200 floes each, or a rectangle of copies of them.
+"""The scenes, as Simulations. Three are fixed, of 200 floes each, or a rectangle of copies of them:
 
 drift   196 floes at 63 % concentration drift at 0.3 m/s past a pile
 jam     the same field, shoved on until its front stands at the pile
 packed  195 floes at 97 %, nearly all face on face, the 52 at the border held fast; no current
+
+Two the program makes itself, as it makes those of a user:
+
+field    floes of any number in the order in which `generate` numbers them, brought together until they touch face on face
+rocking  189 floes that a current presses between walls against a pile; some twenty rock on each other
 """
 
 import json
@@ -22,6 +27,7 @@ from benchmarks.tiling import (
     repeated_wholes,
 )
 from dilatedem.case.schema import Case
+from dilatedem.geometry.outline import centroid
 from dilatedem.run.simulation import PAIRS_PER_BODY, Simulation, State
 from dilatedem.state.bodies import Bodies, Ids
 from dilatedem.state.clock import Status, clock_at_start
@@ -33,6 +39,8 @@ from dilatedem.state.records import records_of
 from dilatedem.state.supports import all_held, excursions_at_start
 
 SCENES = ("drift", "jam", "packed")
+MADE = ("field", "rocking")
+ALL = (*SCENES, *MADE)
 MODELS = ("liu2015", "consistent")
 FOLDER = Path(__file__).parent / "scenes"
 
@@ -42,6 +50,12 @@ STEP = 1e-4
 SETTLING = 2000
 #: velocity of the water, m/s, where floes drift; those of `packed` stand in still water
 CURRENT = {"drift": 0.3, "jam": 0.3, "packed": 0.0}
+#: of `field`: mean floe [m], concentration as it is generated, and how much nearer floes come than to touch, as a share
+FLOE, CONCENTRATION, CLOSER = 2.8, 0.9, 3e-6
+#: of `rocking`: time that it takes to press the floes together, s
+PRESSING = 11.0
+#: floe-steps in which a generated field settles at most
+LONGEST_SETTLING = 20_000_000
 #: how far a scene may reach beyond its own square and still stand edge to edge with its copy, m (the border of `packed`, held fast)
 SLACK = 0.01
 
@@ -129,12 +143,51 @@ def tiled(tile: Simulation, along_x: int, along_y: int, *, threads: int = 1) -> 
 
 def settled(name: str, model: str) -> Simulation:
     """A fixed scene after the unrest of its first fifth of a second: the overlaps that it was drawn with have given way."""
-    tile = scene_simulation(name, model)
-    tile.evaluate()
-    status = tile.advance(SETTLING)
+    return _settled(scene_simulation(name, model), SETTLING, name)
+
+
+def _settled(simulation: Simulation, steps: int, name: str) -> Simulation:
+    simulation.evaluate()
+    status = simulation.advance(steps)
     if status != Status.DONE:
         raise RuntimeError(f"scene {name} stopped: {status.name}")
-    return tile
+    return simulation
+
+
+def packed_field(floes: int, model: str, *, threads: int = 1) -> Simulation:
+    """A packed field as `generate` makes it, settled: cells shrunk about their centroids, which are brought as much nearer;
+    those at the border are held fast.
+
+    Floes side by side have nothing but space in common with their numbers, as in any field of a user.
+    """
+    side = sqrt(floes * FLOE**2 / CONCENTRATION)
+    simulation = Simulation.from_case({
+        "domain": {"size": [side, side], "x_boundary": "open", "y_boundary": "open"},
+        "field": {"floe_count": floes, "concentration": CONCENTRATION, "seed": 1},
+        "ice": {"dilated_radius": 0.04, "elastic_modulus": 1e9},
+        "contact": {"model": model, "damping": 0.36, "friction": 0.1, "stiffness_ratio": 0.7},
+        "time": {"step": STEP},
+    }, threads=threads)  # fmt: skip
+    field, place, solids = simulation.scene.field, simulation.state.bodies.position, simulation.model.solids
+    held = np.flatnonzero((np.abs(place[:floes, :2]) > 0.5 * side - FLOE).any(axis=1))
+    solids.inverse_mass[held], solids.inverse_inertia[held] = 0.0, 0.0
+    for row, outline in enumerate(field.outlines):
+        place[row, :2] += (field.factor * (1.0 - CLOSER) - 1.0) * centroid(outline)
+    return _settled(simulation, max(200, min(SETTLING, LONGEST_SETTLING // floes)), "field")
+
+
+def rocking(model: str, *, threads: int = 1) -> Simulation:
+    """Floes that rock between walls before a pile."""
+    simulation = Simulation.from_case({
+        "domain": {"size": [30.0, 20.0], "x_boundary": "open", "y_boundary": "wall"},
+        "field": {"floe_count": 190, "concentration": 0.8, "seed": 3},
+        "ice": {"dilated_radius": 0.04, "elastic_modulus": 1e9, "initial_velocity": "current"},
+        "water": {"velocity": [0.3, 0.0]},
+        "structure": [{"kind": "pile", "name": "pile", "center": [5.0, 0.0], "radius": 2.0, "elastic_modulus": 210e9}],
+        "contact": {"model": model, "damping": 0.36, "friction": 0.1, "stiffness_ratio": 0.7},
+        "time": {"step": STEP},
+    }, threads=threads)  # fmt: skip
+    return _settled(simulation, round(PRESSING / STEP), "rocking")
 
 
 def sized(tile: Simulation, floes: int, *, threads: int = 1) -> Simulation:

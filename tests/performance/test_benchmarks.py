@@ -5,7 +5,7 @@ import pytest
 from benchmarks import measure, report, results, yardstick
 from benchmarks.__main__ import arguments, main, plan_of
 from benchmarks.measure import Plan, Replay
-from benchmarks.scenes import scene_simulation, settled, sized
+from benchmarks.scenes import packed_field, scene_simulation, settled, sized
 from benchmarks.targets import Target, targets
 from dilatedem.step.stages import STAGES
 
@@ -33,15 +33,22 @@ def test_other_figures_are_measured_without_the_scenes_unless_asked_for():
 def test_of_all_rounds_the_best_counts_and_the_median_of_every_repeat(monkeypatch):
     times = iter([[3.0, 5.0], [8.0, 9.0], [2.0, 7.0], [10.0, 11.0]])
 
-    def measured(scene, model, size, threads, repeats, tile):
+    def measured(scene, model, size, threads, repeats, simulation):
         taken = next(times)
         return row(size=size, ms_per_step=min(taken), ms_per_step_median=0.0), taken
 
     monkeypatch.setattr(measure, "measured", measured)
-    monkeypatch.setattr(measure, "settled", lambda scene, model: None)
+    monkeypatch.setattr(measure.Scenes, "ready", lambda *configuration: None)
     plan = Plan(scenes=("packed",), models=("liu2015",), sizes=(200, 2000), threads=(1,), rounds=2)
     found = [(row["size"], row["ms_per_step"], row["ms_per_step_median"]) for row in measure.rows_of(plan)]
     assert found == [(200, 3.0, 4.0), (2000, 8.0, 8.5), (200, 2.0, 4.0), (2000, 8.0, 9.5)]
+
+
+def test_a_generated_field_is_packed_face_on_face_and_rocking_has_one_size():
+    simulation = packed_field(60, "liu2015")
+    assert simulation.model.floating == 60
+    assert simulation.contacts > 1.5 * 60
+    assert {size for scene, _, size, _ in Plan(sizes=(200, 2000)).configurations() if scene == "rocking"} == {200}
 
 
 def test_a_wrong_scene_ends_the_command_line(capsys):
