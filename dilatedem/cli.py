@@ -111,7 +111,7 @@ def generate(case: CaseArgument, out: OutOption = None, overrides: SetOption = N
     from dilatedem.generate import generate as generate_field
 
     folder = out or _default_out(case)
-    _print_pairs(generate_field(load(case, overrides or ()), folder))
+    _print_facts(generate_field(load(case, overrides or ()), folder))
     say(f"field.vtu, field.png and field.json are in {folder}")
 
 
@@ -143,7 +143,7 @@ def check(
     facts = foretell.told(facts)
     for warning in facts.pop("warnings", ()):
         print(printable(f"warning: {warning}"), file=sys.stderr)
-    _print_pairs(facts)
+    _print_facts(facts)
 
 
 @app.command()
@@ -291,6 +291,16 @@ def _clock(seconds: float) -> str:
     return f"{hours} h {minutes} min" if hours else f"{minutes} min {rest} s"
 
 
+def _print_facts(facts: dict[str, Any]) -> None:
+    """What follows from a case, in two columns; then, in sentences, what was changed in outlines of a file."""
+    from dilatedem.field.survey import sentences
+
+    _print_pairs({label: fact for label, fact in facts.items() if label != "file"})
+    if file := facts.get("file"):
+        for sentence in sentences(file):
+            say(f"{Path(file['path']).name}: {sentence}")
+
+
 def _print_pairs(pairs: Mapping[str, Any] | Iterable[tuple[str, Any]]) -> None:
     """Labels and values in two columns; nested tables are written with dotted labels."""
     rows = list(_flat(dict(pairs)))
@@ -303,7 +313,7 @@ def _flat(table: Mapping[str, Any], before: str = "") -> Iterable[tuple[str, Any
     for label, value in table.items():
         if isinstance(value, Mapping):
             yield from _flat(value, f"{before}{label}.")
-        else:
+        elif value is not None:
             yield f"{before}{label}", value
 
 

@@ -16,12 +16,14 @@ from dilatedem.files.whose import refuse_foreign, refuse_links
 from dilatedem.output.folder import holds_run
 from dilatedem.output.summary import write_json
 from dilatedem.output.vtu import write_shapes
-from dilatedem.scene.facts import field_facts
+from dilatedem.scene.facts import asked_areas, field_facts
 from dilatedem.scene.place import Scene, compose
 
 SIZE_MAP = "viridis"
 #: of a size, differences that are none
 ALIKE = 1e-6
+#: inch, that the arrow and the words of a current or a wind take above the plan
+FLOW = 0.25
 FACTS = "field.json"
 FILES = (FACTS, "field.vtu", "field.png")
 
@@ -72,12 +74,16 @@ def _holds_field(folder: Path) -> bool:
 
 
 def _picture(case: Case, placed: Scene) -> Callable[[], bytes]:
-    """The plan of the field, floes coloured by size; call the result for the bytes of a PNG."""
+    """The plan of the field, floes coloured by size, and their sizes where the case asks for some; call the result for the bytes of
+    a PNG.
+    """
     # Imported here: matplotlib takes half a second, which a wrong case should not wait for.
     from dilatedem.post.figures import canvas, plan
     from dilatedem.post.figures.field import panel_height
+    from dilatedem.post.figures.sizes import draw_sizes
     from dilatedem.post.read import RunFolder
     from dilatedem.results.archive import PlanOutline
+    from dilatedem.results.whole import together
 
     # The figures of a run are drawn from its folder; this is one that holds nothing but the case.
     scene = RunFolder(
@@ -96,13 +102,15 @@ def _picture(case: Case, placed: Scene) -> Callable[[], bytes]:
 
     @canvas.styled
     def draw() -> canvas.Drawing:
-        outlines = list(placed.outlines)
+        first, owner = np.unique(placed.joints.first(), return_inverse=True)
+        outlines, asked = together(list(placed.outlines), owner), asked_areas(case, placed)
         view = plan.choose_view(scene, [outlines])
-        figure = canvas.new_figure(6.4, panel_height(view, 5.6))
-        axes = figure.add_subplot()
+        height = panel_height(view, 5.6) + FLOW * len(scene.flows)
+        figure = canvas.new_figure(6.4 if asked is None else 6.4 + 3.2, height)
+        axes, *beside = np.ravel(figure.subplots(1, 1 if asked is None else 2, width_ratios=None if asked is None else [2.0, 1.0]))
         plan.dress(axes, scene, view, water=canvas.WATER)
         plan.draw_domain(axes, scene)
-        size = np.sqrt(placed.floe_area())
+        size = np.sqrt(placed.floe_area()[first])
         style = {"cmap": SIZE_MAP, **_scale(size), "edgecolors": canvas.ICE_EDGE, "linewidths": 0.4}
         floes = plan.draw_floes(axes, scene, view, outlines, array=size, **style)
         plan.draw_structures(axes, scene)
@@ -110,6 +118,8 @@ def _picture(case: Case, placed: Scene) -> Callable[[], bytes]:
         bar = figure.colorbar(floes, ax=axes, shrink=0.85, pad=0.02)
         bar.set_label("Floe size, root of the plan area (m)")
         axes.set_title(_title(case, placed))
+        for panel in beside:
+            draw_sizes(panel, asked, placed.field.every_area)
         return canvas.Drawing("field", "Ice field", "", figure)
 
     drawing = draw()

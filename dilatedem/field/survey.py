@@ -82,14 +82,19 @@ class Report:
 
     def sentences(self) -> list[str]:
         """For the screen, a line each."""
-        points = f"({self.points[0]} points, now {self.points[1]})"
-        head = f"{self.polygons} outlines of {self.area[0]:.5g} m2 became {self.floes} floes of {self.area[1]:.5g} m2 {points}"
-        lines = [
-            f"{CHANGES[name]}: {change.outlines}, of {change.before:.5g} m2, now {change.after:.5g} m2"
-            for name, change in self.changes.items()
-            if change.outlines
-        ]
-        return [head, *lines]
+        return sentences(self.facts())
+
+
+def sentences(facts: dict) -> list[str]:
+    """Lines of what a `Report` holds; facts: as it gives them for files."""
+    areas = f"of {facts['area_before_m2']:.5g} m2 became {facts['floes']} floes of {facts['area_after_m2']:.5g} m2"
+    lines = [f"{facts['polygons']} outlines {areas} ({facts['points_before']} points, now {facts['points_after']})"]
+    for name, change in facts["changes"].items():
+        areas = f"of {change['area_before_m2']:.5g} m2, now {change['area_after_m2']:.5g} m2"
+        lines.append(f"{CHANGES[name]}: {change['outlines']}, {areas}")
+    if facts["unused"]:
+        lines.append(f"properties that are not taken: {', '.join(facts['unused'])}")
+    return lines
 
 
 @dataclass(frozen=True, eq=False)

@@ -107,7 +107,8 @@ class FloeTable:
     """The bodies at t = 0, one entry each.
 
     body (n,) number; x0, y0 (n,) [m] centroid; plan_area (n,) [m2]; mass (n,) [kg]; volume (n,) [m3];
-    vertices (n,) of the core; outlines: n arrays (k, 2) [m], outer, world coordinates, counter-clockwise
+    vertices (n,) of the core; floe (n,): number of the first part of the floe that it is part of; outlines: n arrays (k, 2) [m],
+    outer, world coordinates, counter-clockwise
     """
 
     body: np.ndarray
@@ -117,6 +118,7 @@ class FloeTable:
     mass: np.ndarray
     volume: np.ndarray
     vertices: np.ndarray
+    floe: np.ndarray
     outlines: Sequence[np.ndarray]
 
     def rows(self, which: np.ndarray) -> "FloeTable":
@@ -269,6 +271,8 @@ def _write_floes(group: h5py.Group, floes: FloeTable) -> None:
     columns = (floes.x0, floes.y0, floes.plan_area, floes.mass, floes.volume, np.asarray(floes.vertices, dtype=np.int64))
     for (name, description), values in zip(FLOES.items(), columns, strict=True):
         dimensions.write(group, name, values, *description, [body])
+    if (np.asarray(floes.floe) != floes.body).any():
+        dimensions.write(group, "floe", floes.floe, "1", "number of the first part of the floe that the body is part of", [body])
     # Outlines differ in length: all points in one table, and where each body's points start.
     counts = [len(outline) for outline in floes.outlines]
     points = np.concatenate([np.zeros((0, 2)), *floes.outlines])

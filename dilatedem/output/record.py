@@ -20,10 +20,10 @@ FILE, FLOE, MAP = 3e5, 350.0, 25e3
 
 def floe_table(scene, ids: np.ndarray | None = None) -> FloeTable:
     """All bodies of a `scene.place.Scene`; ids (n,): their numbers, from 0 on unless given."""
+    body = np.arange(scene.count) if ids is None else ids
     return FloeTable(
-        body=np.arange(scene.count) if ids is None else ids, x0=scene.position[:, 0], y0=scene.position[:, 1],
-        plan_area=scene.plan_area, mass=scene.mass(), volume=scene.volume(), vertices=scene.core_vertices(),
-        outlines=scene.outlines,
+        body=body, x0=scene.position[:, 0], y0=scene.position[:, 1], plan_area=scene.plan_area, mass=scene.mass(),
+        volume=scene.volume(), vertices=scene.core_vertices(), floe=body[scene.joints.first()], outlines=scene.outlines,
     )  # fmt: skip
 
 

@@ -182,8 +182,8 @@ def run_drawings(run: RunFolder) -> list[Drawing]:
 
 def initial_outlines(run: RunFolder, snapshots: list[Snapshot]) -> list[np.ndarray]:
     """Outlines of the floes at the start, from run.h5, which has others where ice enters, or from a snapshot of t = 0."""
-    if run.floes is not None and "inflow" not in run.boundaries:
-        return run.floes.outlines
+    if run.ice is not None and "inflow" not in run.boundaries:
+        return run.ice.outlines
     return snapshots[0].outlines if snapshots and snapshots[0].time == 0.0 else []
 
 
@@ -195,7 +195,7 @@ def hits_on(run: RunFolder, name: str) -> dict[str, Any]:
     told, history = run.summary.get("hits") or {}, run.forces[name]
     threshold, gap = told.get("threshold_N"), told.get("gap_s")
     if threshold is None or gap is None:
-        return hit_statistics(history, hit_threshold(None if run.floes is None else run.floes.mass))
+        return hit_statistics(history, hit_threshold(None if run.ice is None else run.ice.mass))
     found = hit_statistics(history, threshold, gap)
     return found | event_statistics(run.hits[name]) if name in run.hits else found
 

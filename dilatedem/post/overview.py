@@ -49,7 +49,7 @@ def status_words(run: RunFolder) -> str:
 
 
 def model_words(run: RunFolder) -> str:
-    count = run.summary.get("floes") or (len(run.floes.outlines) if run.floes else None)
+    count = run.summary.get("floes") or (len(run.ice.outlines) if run.ice else None)
     size = run.domain_size
     floes = f"{count} floes" if count is not None else "floes"
     kinds = [f"{structure.get('kind')} '{structure.get('name')}'" for structure in run.structures]

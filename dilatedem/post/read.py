@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +15,7 @@ from dilatedem.results.files import list_snapshots, read_case, read_summary
 from dilatedem.results.hits import KeptHit
 from dilatedem.results.soundness import require_table
 from dilatedem.results.tables import Table, read_table, row_count, split_by_structure
+from dilatedem.results.whole import whole_table
 
 
 @dataclass(frozen=True)
@@ -28,7 +30,7 @@ class RunFolder:
     snapshots: list[tuple[float, Path]]  # (time [s], file)
     load_maps: dict[str, LoadMap] = field(default_factory=dict)
     contacts: dict[str, ContactStatistics] = field(default_factory=dict)  # by "ice_ice", "ice_structure"
-    floes: FloeTable | None = None
+    floes: FloeTable | None = None  # a row for each body
     outlines: dict[str, PlanOutline] = field(default_factory=dict)  # by structure
     energy_labels: dict[str, str] = field(default_factory=dict)  # terms of energy.csv in words
     hits: dict[str, Table] = field(default_factory=dict)  # load events, by structure
@@ -38,6 +40,11 @@ class RunFolder:
     @property
     def title(self) -> str:
         return str(self.case.get("title") or self.path.name)
+
+    @cached_property
+    def ice(self) -> FloeTable | None:
+        """`floes` with a row for each floe, be it of one part or several."""
+        return self.floes and whole_table(self.floes)
 
     @property
     def structures(self) -> list[dict[str, Any]]:
@@ -89,7 +96,7 @@ class RunFolder:
     def flows(self) -> dict[str, tuple[float, float]]:
         """What moves the ice, by name, and its velocity [m/s], of a table that at the start; without what stands still."""
         told = {"current": self.case.get("water", {}), "wind": self.case.get("wind", {})}
-        names = {what: f"{what} at the start" if "velocity_table" in table else what for what, table in told.items()}
+        names = {what: f"{what} at the start" if table.get("velocity_table") else what for what, table in told.items()}
         return {names[what]: flow for what, flow in (("current", self.current), ("wind", self.wind)) if any(flow)}
 
     def _velocity_of(self, what: str) -> tuple[float, float]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dilatedem.post.read import RunFolder
 from dilatedem.results.snapshots import Snapshot, nearest_snapshot
+from dilatedem.results.whole import whole_snapshot
 
 
 def snapshots_at(run: RunFolder, fractions: tuple[float, ...]) -> list[Snapshot]:
@@ -14,7 +15,7 @@ def snapshots_at(run: RunFolder, fractions: tuple[float, ...]) -> list[Snapshot]
     chosen: dict[float, Snapshot] = {}
     for fraction in fractions:
         try:
-            snapshot = nearest_snapshot(run.snapshots, first + fraction * (last - first))
+            snapshot = whole_snapshot(nearest_snapshot(run.snapshots, first + fraction * (last - first)), run.floes)
         except OSError:
             return []  # all of them were cut short
         chosen[snapshot.time] = snapshot

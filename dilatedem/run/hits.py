@@ -2,6 +2,8 @@
 
 import math
 
+import numpy as np
+
 from dilatedem.case.schema import Case
 from dilatedem.run.ending import total_steps
 from dilatedem.state.hits import HitLog, Hits, hit_threshold, no_hits, no_log, samples_kept
@@ -26,10 +28,11 @@ def hits_at_start(case: Case, dt: float) -> Hits:
 
 def hit_log(case: Case, model: Model, dt: float) -> HitLog:
     """What counts as an event, and none that is over; model: of the start."""
-    watched, output = _watched(case), case.output
-    free = model.solids.inverse_mass[: model.floating] > 0.0
+    watched, output, solids = _watched(case), case.output, model.solids
+    starts = np.setdiff1d(np.arange(model.floating), [k for first, last in model.joined for k in range(first + 1, last)])
+    free = solids.inverse_mass[starts] > 0.0
     before, after = samples_kept(dt, watched, output.hits_in_full if watched else 0)
     return no_log(
-        hit_threshold(output.hit_threshold, model.solids.mass[: model.floating][free]),
+        hit_threshold(output.hit_threshold, np.add.reduceat(solids.mass[: model.floating], starts)[free]),
         max(2, math.ceil(output.hit_gap / dt - ROUND_OFF)), before, after, total_steps(case, dt), watched,
     )  # fmt: skip

@@ -52,17 +52,25 @@ def _recipe(case: Case) -> dict:
     return {"shape": field.shape, "regularity": field.regularity, "front": field.front}
 
 
-def distribution_facts(case: Case, scene: Scene) -> dict:
-    """Of the sizes of all floes that were made, also of those left out since: what was asked for, what was reached."""
+def asked_areas(case: Case, scene: Scene) -> np.ndarray | None:
+    """(n,) [m2] plan areas that all floes which were made are asked to have, ascending; None where nothing is asked of them."""
     distribution, areas = case.field.size_distribution, scene.field.every_area
     if distribution is None or not len(areas):
+        return None
+    return _asked(case, areas).root_of_mean_area**2 * distribution.shares(len(areas))
+
+
+def _asked(case: Case, areas: np.ndarray) -> Moments:
+    return case.field.size_distribution.moments(case.field.asked_size or float(np.sqrt(areas.mean())))
+
+
+def distribution_facts(case: Case, scene: Scene) -> dict:
+    """Of the sizes of all floes that were made, also of those left out since: what was asked for, what was reached."""
+    areas, asked = scene.field.every_area, asked_areas(case, scene)
+    if asked is None:
         return {}
-    asked = distribution.moments(case.field.asked_size or float(np.sqrt(areas.mean())))
-    told = {"kind": distribution.kind}
-    for name, moments, all_areas in (
-        ("asked_m", asked, asked.root_of_mean_area**2 * distribution.shares(len(areas))),
-        ("reached_m", Moments.of_areas(areas), areas),
-    ):
+    told = {"kind": case.field.size_distribution.kind}
+    for name, moments, all_areas in (("asked_m", _asked(case, areas), asked), ("reached_m", Moments.of_areas(areas), areas)):
         quantiles = np.sqrt(np.quantile(all_areas, QUANTILES))
         told[name] = asdict(moments) | {f"quantile_{q:g}": float(value) for q, value in zip(QUANTILES, quantiles, strict=True)}
     return {"size_distribution": told}

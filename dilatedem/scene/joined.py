@@ -26,6 +26,13 @@ class Joints:
     seat: np.ndarray
     inner: np.ndarray
 
+    def first(self) -> np.ndarray:
+        """(n,) the first part of the floe that each body is part of: itself where it is one alone."""
+        numbers = np.arange(len(self.floe))
+        for first, last in joined_rows(self.floe):
+            numbers[first:last] = first
+        return numbers
+
 
 def joined(
     first: int,

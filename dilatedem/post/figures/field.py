@@ -45,8 +45,8 @@ def field_figure(run: RunFolder, outlines: list[np.ndarray]) -> Drawing:
     draw_flows(axes, run)
     axes.set_title(f"{len(outlines)} floes at t = 0")
     size = ""
-    if run.floes is not None and len(run.floes.plan_area) and "inflow" not in run.boundaries:
-        area = run.floes.plan_area
+    if run.ice is not None and len(run.ice.plan_area) and "inflow" not in run.boundaries:
+        area = run.ice.plan_area
         lx, ly = run.domain_size
         size = (
             f" Mean floe size (root of the mean plan area) {number(math.sqrt(area.mean()), 3)} m; "

@@ -82,8 +82,8 @@ def ice_words(run: RunFolder) -> str:
     """How many floes of which size, how thick, and whether they crush."""
     ice, count = run.case.get("ice", {}), run.summary.get("floes")
     words = [f"{show(count)} floes"] if count is not None else []
-    if run.floes is not None and len(run.floes.plan_area):
-        words.append(f"{number(math.sqrt(float(run.floes.plan_area.mean())), 3)} m in size")
+    if run.ice is not None and len(run.ice.plan_area):
+        words.append(f"{number(math.sqrt(float(run.ice.plan_area.mean())), 3)} m in size")
     if ice.get("thickness"):
         words.append(f"{number(float(ice['thickness']))} m thick")
     limit = ice.get("crushing_pressure")

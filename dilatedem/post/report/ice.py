@@ -18,7 +18,7 @@ def field_rows(run: RunFolder) -> list[list[str]]:
 
     Where ice enters on the way, run.h5 holds the floes of the whole run.
     """
-    floes = run.floes
+    floes = run.ice
     if floes is None or not len(floes.outlines):
         return []
     entering = "inflow" in run.boundaries

@@ -77,11 +77,11 @@ def breaking_words(run: RunFolder) -> str:
     rigid = "Floes are rigid: they do not bend, split, raft or ridge."
     ice, gravity = run.case.get("ice", {}), float(run.case.get("gravity", {}).get("acceleration", 9.81))
     thickness, density = ice.get("thickness"), ice.get("density")
-    if run.floes is None or not len(run.floes.outlines) or not thickness or not density or not gravity > 0.0:
+    if run.ice is None or not len(run.ice.outlines) or not thickness or not density or not gravity > 0.0:
         return rigid
     longest = BREAKING_LENGTH * math.sqrt(FLEXURAL_STRENGTH * thickness / (density * gravity))
-    count = sum(length_of(outline) > longest for outline in run.floes.outlines)
-    told = f"of {len(run.floes.outlines)} floes {count or 'none'} {'are' if count > 1 else 'is'} longer than {number(longest, 3)} m"
+    count = sum(length_of(outline) > longest for outline in run.ice.outlines)
+    told = f"of {len(run.ice.outlines)} floes {count or 'none'} {'are' if count > 1 else 'is'} longer than {number(longest, 3)} m"
     meaning = (
         f"the length from which a floe that rides up a slope breaks under its own weight at a flexural strength of "
         f"{number(FLEXURAL_STRENGTH / 1e6)} MPa"
@@ -123,10 +123,10 @@ def drag_words(run: RunFolder) -> str:
     if water.get("drag", "wetted") != "wetted" or not water.get("enabled", True):
         return ""
     told = " Its drag acts on the whole wetted surface of a floe"
-    if run.floes is None or not len(run.floes.outlines) or run.afloat is None:
+    if run.ice is None or not len(run.ice.outlines) or run.afloat is None:
         return f"{told}: about ten times the drag of a formula for the frontal area."
-    draft, area = run.afloat[0], float(run.floes.plan_area.sum())
-    sides = draft * sum(float(np.hypot(*(np.roll(outline, -1, axis=0) - outline).T).sum()) for outline in run.floes.outlines)
+    draft, area = run.afloat[0], float(run.ice.plan_area.sum())
+    sides = draft * sum(float(np.hypot(*(np.roll(outline, -1, axis=0) - outline).T).sum()) for outline in run.ice.outlines)
     wetted = float(water.get("drag_force_coefficient", 0.6)) * (area + sides)
     by_form = float(water.get("skin_coefficient", 0.004)) * area + float(water.get("form_coefficient", 0.8)) * sides / math.pi
     if not by_form > 0.0:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -11,6 +12,7 @@ from dilatedem.post.figures.plan import choose_view, domain_limits
 from dilatedem.post.read import RunFolder
 from dilatedem.post.report.pack import FULL, pack, scaled
 from dilatedem.results.snapshots import Snapshot, read_snapshot
+from dilatedem.results.whole import whole_snapshot
 
 #: pictures, and corners of all pictures together, at most: more makes the page long to load
 PICTURES, CORNERS = 120, 400_000
@@ -41,20 +43,20 @@ def moving_plan(run: RunFolder) -> dict[str, Any] | None:
 def evenly(run: RunFolder) -> list[Snapshot]:
     """Snapshots at even distances, as many as there is room for, the first and the last among them."""
     listed = run.snapshots
-    found = [snapshot for snapshot in map(_readable, listed[:1]) if snapshot]
+    found = [snapshot for snapshot in (_readable(run, entry) for entry in listed[:1]) if snapshot]
     if not found:
         return []
     corners = sum(map(len, found[0].outlines))
     count = min(len(listed), PICTURES, max(2, CORNERS // max(1, corners)))
     rest = [listed[i] for i in np.unique(np.round(np.linspace(0, len(listed) - 1, count)).astype(int))[1:]]
-    return found + [snapshot for snapshot in map(_readable, rest) if snapshot]
+    return found + [snapshot for snapshot in (_readable(run, entry) for entry in rest) if snapshot]
 
 
-def _readable(entry) -> Snapshot | None:
-    """One of the run's snapshots; None of one that was cut short."""
+def _readable(run: RunFolder, entry: tuple[float, Path]) -> Snapshot | None:
+    """One of the run's snapshots, (time [s], file); None of one that was cut short."""
     time, path = entry
     try:
-        return read_snapshot(path, time)
+        return whole_snapshot(read_snapshot(path, time), run.floes)
     except OSError:
         return None
 

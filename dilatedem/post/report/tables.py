@@ -193,8 +193,8 @@ def fact_rows(run: RunFolder) -> Rows:
             ("ice waited for room", "waited_s", "s"),
         ]
         rows += [[label, show(inflow[key]), unit] for label, key, unit in told if inflow.get(key) is not None]
-    elif run.floes is not None and len(run.floes.mass):
-        rows.append(["mass of all floes", number(float(run.floes.mass.sum()) / 1e3), "t"])
+    elif run.ice is not None and len(run.ice.mass):
+        rows.append(["mass of all floes", number(float(run.ice.mass.sum()) / 1e3), "t"])
     return rows
 
 

@@ -34,6 +34,7 @@ def content(duration=2.0):
         mass=np.array([200.0, 400.0]),
         volume=np.array([0.2, 0.4]),
         vertices=np.array([6, 8]),
+        floe=np.array([0, 1]),
         outlines=outlines,
     )
     return [pile, plane], statistics, floes
@@ -168,7 +169,7 @@ def test_wrong_shapes_are_refused(tmp_path):
 
 def test_no_floes_and_no_structures(tmp_path):
     zeros = np.zeros(0)
-    written(tmp_path / "run.h5", [], {}, FloeTable(zeros, zeros, zeros, zeros, zeros, zeros, zeros, []))
+    written(tmp_path / "run.h5", [], {}, FloeTable(zeros, zeros, zeros, zeros, zeros, zeros, zeros, zeros, []))
     with h5py.File(tmp_path / "run.h5") as file:
         assert file["floes/outline_points"].shape == (0, 2)
         np.testing.assert_array_equal(file["floes/outline_start"], [0])

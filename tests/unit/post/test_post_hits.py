@@ -44,7 +44,7 @@ def archive(tmp_path):
     square = np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
     start = np.arange(9.0)
     floes = FloeTable(np.arange(9), start, 0 * start, np.full(9, 4.0), np.ones(9), np.ones(9), np.full(9, 8),
-                      [square + [x, 0.0] for x in start])  # fmt: skip
+                      np.arange(9), [square + [x, 0.0] for x in start])  # fmt: skip
     nothing = {partners: ContactStatistics(*np.zeros((4, 7))) for partners in ("ice_ice", "ice_structure")}
     outlines = [PlanOutline(name, "pile", square + [3.5, 0.0], True, np.array([3.5, 0.0])) for name in ("one", "two")]
     kept = kept_hits(state(), DT, orientation)

@@ -8,6 +8,8 @@ import shapely
 
 from dilatedem.case.load import case_from
 from dilatedem.events.repack import whole_floes
+from dilatedem.output.record import floe_table
+from dilatedem.run.hits import hit_log
 from dilatedem.scene.arrays import build_model
 from dilatedem.scene.facts import field_facts
 from dilatedem.scene.place import compose
@@ -92,6 +94,15 @@ def test_sizes_and_left_out_count_floes_not_parts(tmp_path):
     case = case_from(case.model_dump(exclude_none=True) | collection, {})
     scene = compose(case)
     assert scene.count == 1 and scene.field.left_out == 1  # the pile stands in one part, and the floe goes as a whole
+
+
+def test_load_events_and_the_table_of_floes_know_whole_floes(tmp_path):
+    case, scene = built(tmp_path, shapely.box(10, 10, 12, 12), BAY)
+    model = build_model(case, scene)
+    one, several = model.solids.mass[0], model.solids.mass[1:].sum()
+    assert hit_log(case, model, 1e-3).threshold == pytest.approx(0.5 * (one + several))  # 1 m/s2 of the mean floe
+    table = floe_table(scene)
+    assert table.floe.tolist() == [0, 1, 1, 1] and table.body.tolist() == [0, 1, 2, 3]
 
 
 def test_rows_of_floes_and_what_leaves_as_a_whole():
