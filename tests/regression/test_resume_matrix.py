@@ -69,13 +69,13 @@ def asked_after(most: float) -> type[Interruption]:
     return Asked
 
 
-def stopped_halfway(monkeypatch, case, out: Path, looks: int) -> Path:
-    """The folder of a run that was stopped after half of its `looks` at the keyboard, and resumed with two threads."""
+def stopped_halfway(monkeypatch, case, out: Path, looks: int, *, threads: int = 2) -> Path:
+    """The folder of a run that was stopped after half of its `looks` at the keyboard, and resumed with so many threads."""
     monkeypatch.setattr(loop, "Interruption", asked_after(looks // 2))
     with pytest.raises(Interrupted):
         loop.run(case, out, quiet=True)
     monkeypatch.undo()
-    return loop.run(case, out, threads=2, resume=True, quiet=True)
+    return loop.run(case, out, threads=threads, resume=True, quiet=True)
 
 
 def hit_at(folder: Path, name: str) -> float:
