@@ -25,6 +25,10 @@ from dilatedem.keys import (
 AnyDistribution = Annotated[Union[distribution.DISTRIBUTIONS], Field(discriminator="kind")]  # noqa: UP007 (a union of a tuple)
 
 
+#: keys that say how floes are made
+MADE = ("floe_size", "floe_count", "concentration", "shape", "regularity", "size_distribution", "front")
+
+
 class IceField(Table):
     """The floes at the start: cells that fill the domain, shrunk to the concentration asked for, or outlines of a file."""
 
@@ -102,6 +106,9 @@ class IceField(Table):
             return [(("source",), "needs a file of outlines")]
         if Path(self.file).suffix.lower() not in drawing.SUFFIXES:
             return [(("file",), f"must be a GeoJSON, WKT or CSV file, by its name, too: {', '.join(drawing.SUFFIXES)}")]
+        given = [name for name in MADE if getattr(self, name) != type(self).model_fields[name].default]
+        if given:
+            return [((name,), 'belongs to source = "voronoi"; floes of a file are as they are drawn') for name in given]
         return content_faults(self.file, self.sha256)
 
     @model_validator(mode="after")

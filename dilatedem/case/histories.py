@@ -56,4 +56,8 @@ def _rows(path: Path, columns: tuple[str, ...], key: str) -> list[list[float]]:
             found += [[float(row[i]) for i in where]] if any(row) else []
         except (IndexError, ValueError):
             raise CaseError(f"{key}: {path}:{line}: must hold a number for each of {', '.join(columns)}") from None
+        if len(found) > 1 and found[-1][0] <= found[-2][0]:
+            raise CaseError(f"{key}: {path}:{line}: {columns[0]} = {found[-1][0]:g} must be more than in the row before")
+    if not found:
+        raise CaseError(f"{key}: {path}: has no rows below the names of its columns")
     return found

@@ -57,13 +57,15 @@ CHANGES = {
 
 @dataclass
 class Report:
-    """What was changed; areas in m2. points, area: of all polygons as drawn, then of the floes that came out of them."""
+    """What was changed; areas in m2. points, area: of all polygons as drawn, then of the floes that came out of them; bounds [m]:
+    least x and y, largest x and y of what was drawn, in place."""
 
     entries: int
     polygons: int = 0
     points: tuple[int, int] = (0, 0)
     area: tuple[float, float] = (0.0, 0.0)
     floes: int = 0
+    bounds: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0)
     unused: tuple[str, ...] = ()
     changes: dict[str, Change] = field(default_factory=lambda: {name: Change() for name in CHANGES})
 
@@ -165,6 +167,7 @@ def _polygons(drawing: Drawing, wishes: Wishes, report: Report) -> tuple[np.ndar
     several = shapely.get_num_geometries(areas) > 1
     report.changes["multipolygons"].of(shapely.area(areas[several]), shapely.area(areas[several]))
     polygons, owner = shapely.get_parts(areas, return_index=True)
+    report.bounds = tuple(shapely.total_bounds(areas).tolist())
     report.polygons, report.area = len(polygons), (float(shapely.area(polygons).sum()), 0.0)
     report.points = (int(shapely.get_num_coordinates(polygons).sum()) - len(polygons), 0)
     crossing = ~shapely.is_valid(polygons)

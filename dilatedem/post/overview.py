@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections import Counter
 from pathlib import Path
 
@@ -54,9 +55,9 @@ def model_words(run: RunFolder) -> str:
     floes = f"{count} floes" if count is not None else "floes"
     kinds = [f"{structure.get('kind')} '{structure.get('name')}'" for structure in run.structures]
     against = ", ".join(kinds) if kinds else "no structure"
-    current = number(float((run.current[0] ** 2 + run.current[1] ** 2) ** 0.5), 3)
+    flows = ", ".join(f"{what} {number(math.hypot(*flow), 3)} m/s" for what, flow in run.flows.items()) or "current 0 m/s"
     model = run.case.get("contact", {}).get("model", "")
-    return f"{floes} in {size[0]:g} m x {size[1]:g} m, {against}, current {current} m/s, contact {model}"
+    return f"{floes} in {size[0]:g} m x {size[1]:g} m, {against}, {flows}, contact {model}"
 
 
 def step_words(summary: dict) -> str:

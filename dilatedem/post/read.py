@@ -99,6 +99,15 @@ class RunFolder:
         names = {what: f"{what} at the start" if table.get("velocity_table") else what for what, table in told.items()}
         return {names[what]: flow for what, flow in (("current", self.current), ("wind", self.wind)) if any(flow)}
 
+    @property
+    def changing_flows(self) -> dict[str, tuple[float, float]]:
+        """Least and highest speed [m/s] of the current and of the wind where a table tells them."""
+        tables = {what: self.case.get(table, {}).get("velocity_table") for what, table in (("current", "water"), ("wind", "wind"))}
+        if not self.case.get("water", {}).get("enabled", True):
+            return {}
+        speeds = {what: [math.hypot(u, v) for _, u, v in rows] for what, rows in tables.items() if rows}
+        return {what: (min(some), max(some)) for what, some in speeds.items()}
+
     def _velocity_of(self, what: str) -> tuple[float, float]:
         if not self.case.get("water", {}).get("enabled", True):
             return 0.0, 0.0

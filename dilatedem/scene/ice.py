@@ -15,7 +15,7 @@ from dilatedem.field.endless import natural
 from dilatedem.field.obstacles import Obstacle
 from dilatedem.field.placement import FloeField, Parts, dilated_areas, ice_field, touching_obstacles
 from dilatedem.field.stream import Stream
-from dilatedem.field.survey import Report, Wishes, surveyed
+from dilatedem.field.survey import CHANGES, Report, Wishes, surveyed
 from dilatedem.geometry import outline as plan
 from dilatedem.scene.inflow import field_of, stream_of
 from dilatedem.scene.recipe import periodic_axes, ragged_axes, recipe_of, whole_axes
@@ -117,6 +117,8 @@ def _drawn(case: Case, bodies: Sequence[Obstacle]) -> Floes:
     except ValueError as fault:
         raise CaseError(f"field.file: {field.file} {fault}") from fault
     outlines, floe = found.outlines, found.floe
+    if not len(outlines):
+        raise CaseError(_no_floe(case, found.report))
     if (most := int(outlines.sides.max(initial=0))) > MOST_FACE_CORNERS:
         raise CaseError(
             f"field.tolerance = {field.tolerance:g}: leaves an outline with {most} corners, and at most {MOST_FACE_CORNERS} can be "
@@ -131,6 +133,17 @@ def _drawn(case: Case, bodies: Sequence[Obstacle]) -> Floes:
     parts = Parts(floe[kept], floe, found.inner[kept])
     made = FloeField(outlines.where(kept), areas[kept], areas, 1.0, float(areas.sum() / np.prod(size)), kept, parts)
     return Floes(made, ice.where(kept), found.report)
+
+
+def _no_floe(case: Case, report: Report) -> str:
+    """What to say where nothing is left of a file."""
+    low_x, low_y, high_x, high_y = report.bounds
+    gone = {CHANGES[name]: change.outlines for name, change in report.changes.items() if change.outlines and not change.after}
+    why = "; ".join(f"{what}: {count}" for what, count in gone.items())
+    return (
+        f"field.file: {case.field.file} leaves no floe in the domain ({why}): its outlines lie at x = {low_x:.6g} to {high_x:.6g} "
+        f'm and y = {low_y:.6g} to {high_y:.6g} m; see field.scale (metres per unit), field.origin = "centred" and field.smallest'
+    )
 
 
 def _obstacles(case: Case, thickness: np.ndarray, bodies: Sequence[Obstacle]) -> list[Obstacle]:

@@ -94,6 +94,8 @@ def ice_words(run: RunFolder) -> str:
 def sea_words(run: RunFolder) -> str:
     """Current, wind and waves."""
     words = [f"{what} {number(math.hypot(*flow), 3)} m/s towards {direction(flow)}" for what, flow in run.flows.items()]
+    for what, (least, most) in run.changing_flows.items():
+        words.append(f"{what} from a table, {number(least, 3)} to {number(most, 3)} m/s")
     for wave in run.case.get("wave", []):
         height, period = (number(float(wave.get(key, 0.0))) for key in ("amplitude", "period"))
         words.append(f"wave of {height} m amplitude and {period} s")

@@ -16,7 +16,7 @@ SPREAD = (5.0, 50.0, 95.0)
 def field_rows(run: RunFolder) -> list[list[str]]:
     """What, value and unit of the floes at the start; nothing of a run that did not record them.
 
-    Where ice enters on the way, run.h5 holds the floes of the whole run.
+    Where ice enters on the way, run.h5 holds the floes that are there at the end, and those that load events name.
     """
     floes = run.ice
     if floes is None or not len(floes.outlines):
@@ -25,7 +25,7 @@ def field_rows(run: RunFolder) -> list[list[str]]:
     size, mass = np.sqrt(floes.plan_area), floes.mass
     least, most = number(float(size.min()), 3), number(float(size.max()), 3)
     rows = [
-        ["floes, those that entered included" if entering else "floes", str(len(size)), ""],
+        ["floes there at the end, or named by load events: of these" if entering else "floes", str(len(size)), ""],
         ["floe size: root of the mean plan area", number(math.sqrt(float(floes.plan_area.mean()))), "m"],
         ["smallest and largest floe, root of the plan area", f"{least} to {most}", "m"],
     ]
@@ -35,7 +35,8 @@ def field_rows(run: RunFolder) -> list[list[str]]:
         lx, ly = run.domain_size
         rows.append(["share of the domain that they cover", number(100.0 * float(floes.plan_area.sum()) / (lx * ly), 3), "%"])
     rows.append(["mass of a floe: mean, smallest to largest", masses(mass), "t"])
-    rows.append(["mass of all floes", number(float(mass.sum()) / 1e3), "t"])
+    if not entering:
+        rows.append(["mass of all floes", number(float(mass.sum()) / 1e3), "t"])
     corners = np.array([len(outline) for outline in floes.outlines])
     mean = number(float(corners.mean()), 3)
     rows.append(["corners of a floe: mean, fewest to most", f"{mean}, {corners.min()} to {corners.max()}", ""])

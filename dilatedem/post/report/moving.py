@@ -21,7 +21,7 @@ SPEEDS = 255
 
 
 def moving_plan(run: RunFolder) -> dict[str, Any] | None:
-    """View, sides and pictures; None where fewer than two snapshots can be read."""
+    """View, sides, flows and pictures; None where fewer than two snapshots can be read."""
     shown = evenly(run)
     if len(shown) < 2:
         return None
@@ -31,7 +31,8 @@ def moving_plan(run: RunFolder) -> dict[str, Any] | None:
     held = structures_at(run, 0.0)
     return {
         "view": [*view.x, *view.y], "sides": [list(limits) for limits in domain_limits(run)], "unit": unit, "fastest": fastest,
-        "periodic": [side == "periodic" for side in run.boundaries], "current": list(run.current), "structures": held,
+        "periodic": [side == "periodic" for side in run.boundaries], "boundaries": list(run.boundaries), "structures": held,
+        "flows": {what: list(flow) for what, flow in run.flows.items()},
         "of": len(run.snapshots),
         "pictures": [
             picture(snapshot, unit, fastest) | ({"structures": structures_at(run, snapshot.time)} if run.motion else {})

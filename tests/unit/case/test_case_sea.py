@@ -68,6 +68,8 @@ def test_a_table_comes_from_a_file_beside_the_case(tmp_path):
 
 @pytest.mark.parametrize(("text", "said"), [
     ("time_s,u_m_s\n0,1\n", "must begin with a line that names the columns time_s, u_m_s, v_m_s"),
+    ("time_s,u_m_s,v_m_s\n0,1,0\n5,1,0\n4,1,0\n", "current.csv:4: time_s = 4 must be more than in the row before"),
+    ("time_s,u_m_s,v_m_s\n", "current.csv: has no rows below the names of its columns"),
     ("time_s,u_m_s,v_m_s\n0,1,x\n", "current.csv:2: must hold a number for each of time_s, u_m_s, v_m_s"),
 ])  # fmt: skip
 def test_a_file_that_is_no_such_table_is_named(tmp_path, text, said):

@@ -92,6 +92,7 @@ def test_the_case_of_a_run_repeats_it_as_long_as_the_file_is_the_same(tmp_path):
         (('"floes.geojson"', '"case.toml"'), "must be a GeoJSON, WKT or CSV file, by its name, too"),
         (('source = "file"', 'source = "file"\norigin = "middle"'), 'must be "centred" or a list of 2 numbers'),
         (('source = "file"', 'source = "file"\nscale = 0'), "field.scale = 0: must be greater than 0"),
+        (('source = "file"', 'source = "file"\nfloe_size = 3'), 'field.floe_size = 3: belongs to source = "voronoi"'),
     ],
 )
 def test_bad_cases_are_named(tmp_path, change, message):
@@ -105,6 +106,12 @@ def test_faults_of_the_file_are_named(tmp_path):
         compose(load(write(tmp_path, boxes={(0.0, 0.0): {"thickness": -1}})))
     with pytest.raises(CaseError, match=r"field.file: 1 of 3 floes are no thicker than twice the dilated radius, 0.08 m"):
         compose(load(write(tmp_path, boxes={**BOXES, (-6.0, 0.0): {"thickness": 0.05}})))
+
+
+def test_a_file_of_which_nothing_is_left_says_where_its_outlines_lie(tmp_path):
+    said = r"\(outlines left out that lie outside of the domain: 1\): its outlines lie at x = 50 to 52 m and y = 0 to 2 m"
+    with pytest.raises(CaseError, match=f"field.file: .*floes.geojson leaves no floe in the domain {said}"):
+        compose(load(write(tmp_path, boxes={(50.0, 0.0): {}})))
 
 
 def test_too_many_corners_name_the_tolerance(tmp_path):

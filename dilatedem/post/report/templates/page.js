@@ -224,7 +224,8 @@
 
   /** The ice in plan, from snapshot to snapshot. */
   function plan(figure, data) {
-    const LEFT = 40, TOP = 22, RIGHT = 8, FOOT = 34, PACE = 100; // px; ms a picture
+    const LEFT = 40, FLOW = 24, RIGHT = 8, FOOT = 34, PACE = 100; // px; ms a picture
+    const flows = Object.entries(data.flows), TOP = FLOW * Math.max(1, flows.length) - 2;
     const pictures = data.pictures.map((one) => ({ ...one, corners: unpack(one.corners, "u2"), points: unpack(one.points, "i2"), speeds: unpack(one.speeds, "u1") }));
     const [xLow, xHigh, yLow, yHigh] = data.view, [xSide, ySide] = data.sides;
     let shown = 0, timer = null;
@@ -239,7 +240,8 @@
     label.append(" speed");
     const canvas = element("canvas", box, { "aria-hidden": "true" });
     const said = element("p", box, { class: "said" });
-    said.textContent = pictures.length < data.of ? `${pictures.length} of ${data.of} snapshots.` : `${data.of} snapshots.`;
+    const count = pictures.length < data.of ? `${pictures.length} of ${data.of} snapshots.` : `${data.of} snapshots.`;
+    said.textContent = count;
 
     function colour(share) {
       const at = clamp(share, 0, 1) * (VIRIDIS.length - 1), i = Math.min(Math.floor(at), VIRIDIS.length - 2);
@@ -290,13 +292,30 @@
         pen.beginPath(); outline.forEach(([x, y]) => pen.lineTo(X(x), Y(y))); pen.closePath(); pen.fill(); pen.stroke();
       }
       pen.restore();
-      pen.strokeStyle = INK; pen.setLineDash([6, 4]);
-      pen.strokeRect(X(xSide[0]), Y(ySide[1]), X(xSide[1]) - X(xSide[0]), Y(ySide[0]) - Y(ySide[1]));
-      pen.setLineDash([]);
+      pen.strokeStyle = INK;
+      drawSides(pen, data.boundaries[0], xSide.map((x) => [X(x), Y(ySide[0]), X(x), Y(ySide[1])]));
+      drawSides(pen, data.boundaries[1], ySide.map((y) => [X(xSide[0]), Y(y), X(xSide[1]), Y(y)]));
       told.textContent = `${digits(one.time, 6)} s`;
       slider.value = shown;
       slider.setAttribute("aria-valuetext", told.textContent);
       box.dataset.time = one.time;
+    }
+
+    /** Two sides of the domain: full lines where walls stand, dashes where periodic, dots where ice may pass. */
+    function drawSides(pen, kind, lines) {
+      pen.lineWidth = kind === "wall" ? 2 : 1;
+      pen.setLineDash({ wall: [], periodic: [6, 4] }[kind] || [1.5, 3]);
+      for (const [x0, y0, x1, y1] of lines) { pen.beginPath(); pen.moveTo(x0, y0); pen.lineTo(x1, y1); pen.stroke(); }
+      pen.setLineDash([]);
+    }
+
+    /** An arrow along a velocity (u, v) about a point of the canvas. */
+    function arrow(pen, x, y, u, v) {
+      pen.save();
+      pen.translate(x, y); pen.rotate(-Math.atan2(v, u));
+      pen.strokeStyle = INK; pen.lineWidth = 1.4;
+      pen.beginPath(); pen.moveTo(-13, 0); pen.lineTo(13, 0); pen.moveTo(7, -4); pen.lineTo(13, 0); pen.lineTo(7, 4); pen.stroke();
+      pen.restore();
     }
 
     function axes(pen, X, Y) {
@@ -307,14 +326,12 @@
       for (const y of ticks(yLow, yHigh, clamp(Math.floor((Y(yLow) - Y(yHigh)) / 50), 2, 8))) pen.fillText(digits(y), X(xLow) - 5, Y(y));
       pen.textBaseline = "alphabetic";
       pen.textAlign = "left"; pen.fillText("y (m)", X(xLow) - 34, TOP - 9);
-      const [u, v] = data.current, speed = Math.hypot(u, v);
-      if (!speed) return;
-      pen.textAlign = "right"; pen.fillText(`current ${digits(speed, 3)} m/s`, X(xHigh) - 44, TOP - 9);
-      pen.save();
-      pen.translate(X(xHigh) - 20, TOP - 13); pen.rotate(-Math.atan2(v, u));
-      pen.strokeStyle = INK; pen.lineWidth = 1.4;
-      pen.beginPath(); pen.moveTo(-13, 0); pen.lineTo(13, 0); pen.moveTo(7, -4); pen.lineTo(13, 0); pen.lineTo(7, 4); pen.stroke();
-      pen.restore();
+      pen.textAlign = "right";
+      flows.forEach(([what, [u, v]], line) => {
+        const below = TOP - 9 - FLOW * line;
+        pen.fillText(`${what} ${digits(Math.hypot(u, v), 3)} m/s`, X(xHigh) - 44, below);
+        arrow(pen, X(xHigh) - 20, below - 4, u, v);
+      });
     }
 
     function show(k) { shown = clamp(k, 0, pictures.length - 1); draw(); }
@@ -327,7 +344,7 @@
     slider.addEventListener("input", () => { stop(); show(+slider.value); });
     coloured.addEventListener("change", () => {
       draw();
-      said.textContent = coloured.checked ? `Dark: at rest; yellow: ${digits(data.fastest, 3)} m/s or more.` : `${data.of} snapshots.`;
+      said.textContent = coloured.checked ? `Dark: at rest; yellow: ${digits(data.fastest, 3)} m/s or more.` : count;
     });
     new ResizeObserver(draw).observe(canvas);
     show(0);
