@@ -17,23 +17,24 @@ AGAIN = 0.5
 
 
 class Kind(NamedTuple):
-    """A case, how it is shortened, a contact model and a number of threads."""
+    """A case, how it is shortened, a contact model, a number of threads, and settings besides."""
 
     case: str
     duration: float  # s
     sides: str
     model: str
     threads: int
+    more: tuple[str, ...] = ()
 
     def command(self, out: Path, *options: str) -> list[str]:
         """Of a run that takes a second or two beside its start."""
-        settings = [f"contact.model={self.model}", f"time.duration={self.duration}", "output.checkpoint_interval=0.1"]
+        settings = [f"contact.model={self.model}", f"time.duration={self.duration}", "output.checkpoint_interval=0.1", *self.more]
         pairs = [part for setting in settings for part in ("--set", setting)]
         return command("run", CASES / f"{self.case}.toml", "--out", out, "--threads", self.threads, "--quiet", *pairs, *options)
 
     def whole(self, folder: Path) -> Path:
         """A run that nobody stops, made where it is not there; one thread, as the number of threads changes no byte."""
-        out = folder / f"{self.case}-{self.model}"
+        out = folder / f"{self.case}-{self.sides}-{self.model}"
         if not out.exists():
             subprocess.run(self._replace(threads=1).command(out), check=True, env=environment())
         return out
@@ -44,6 +45,33 @@ KINDS = [
     for case, duration, sides in (("crowded", 1.2, "open and periodic"), ("mixed", 0.6, "walls"))
     for model in ("liu2015", "consistent")
     for threads in (1, 2)
+]
+
+#: ice that enters, and settings by which it comes about
+RECIPES = {
+    "random points": (),
+    "squares": ("field.shape=square",),
+    "hexagons, in waves and wind, water taken along": (
+        "field.shape=hexagon", "wave=[{amplitude=0.1,period=4.0}]", "wind={velocity=[8.0,0.0]}", "water.added_mass=true",
+        "water.drag=skin_form",
+    ),
+    "Lloyd": ("field.regularity=4",),
+    "power law": ("field={concentration=0.7,seed=4,size_distribution={kind='power_law',min=1.5,max=4.0}}",),
+    "lognormal": ("field.size_distribution={kind='lognormal',spread=0.3}",),
+    "ragged sides": ("field.front=ragged", "domain.y_boundary=open", "water.velocity=[1.5,0.0]"),
+    "thickness spread": ("ice.thickness_spread=0.2",),
+    "hexagons": ("field.shape=hexagon",),
+    "Lloyd, lognormal, thickness spread": (
+        "field.regularity=2", "field.size_distribution={kind='lognormal',spread=0.3}", "ice.thickness_spread=0.2",
+    ),
+}  # fmt: skip
+INFLOW = (
+    "domain.x_boundary=inflow", "water.velocity=[1.5,0.2]", "field.concentration=0.7", "structure.pile.radius=0.5",
+    "time.step_fraction=0.4", "output.checkpoint_interval=0.4",
+)  # fmt: skip
+ENTERING = [
+    Kind("crowded", 6.0, recipe, ("liu2015", "consistent")[k % 2], 1 + (k % 4 == 2), (*INFLOW, *more))
+    for k, (recipe, more) in enumerate(RECIPES.items())
 ]
 
 

@@ -18,7 +18,7 @@ from random import Random
 
 from tests.regression.folders import environment
 from validation.reliability.faults import COMMANDS
-from validation.reliability.kills import KINDS, kill_at_random, second_process
+from validation.reliability.kills import ENTERING, KINDS, Kind, kill_at_random, second_process
 
 HERE = Path(__file__).parent
 FAULTS = ("ENOSPC", "EIO")
@@ -29,17 +29,32 @@ def kills(folder: Path, given: argparse.Namespace) -> Iterator[str]:
     """A row a kind of run."""
     yield "| case, sides | model | threads | runs | SIGKILLs | runs that differ |"
     yield "| --- | --- | ---: | ---: | ---: | ---: |"
+    for kind, counts in killed(KINDS, folder, given):
+        yield f"| {kind.case}, {kind.sides} | `{kind.model}` | {kind.threads} | {counts} |"
+
+
+def inflow(folder: Path, given: argparse.Namespace) -> Iterator[str]:
+    """A row a recipe of ice that enters."""
+    yield "| ice that enters | model | threads | floes that came | runs | SIGKILLs | runs that differ |"
+    yield "| --- | --- | ---: | ---: | ---: | ---: | ---: |"
+    for kind, counts in killed(ENTERING, folder, given):
+        came = json.loads((kind.whole(folder) / "summary.json").read_text())["inflow"]["entered"]
+        yield f"| {kind.sides} | `{kind.model}` | {kind.threads} | {came} | {counts} |"
+
+
+def killed(kinds: list[Kind], folder: Path, given: argparse.Namespace) -> Iterator[tuple[Kind, str]]:
+    """Kinds of runs, and the numbers of runs, of kills, and of runs that differ, as cells of a row."""
     random = Random(given.seed)
-    share = -(-given.kills // len(KINDS))
-    for kind in KINDS:
-        killed, runs, wrong = 0, 0, []
-        while killed < share:
+    share = -(-given.kills // len(kinds))
+    for kind in kinds:
+        kills, runs, wrong = 0, 0, []
+        while kills < share:
             here, differs = kill_at_random(kind, folder, random)
-            killed, runs = killed + here, runs + 1
+            kills, runs = kills + here, runs + 1
             if differs:
                 wrong.append(differs)
-        report(f"{kind}: {killed} kills, {len(wrong)} differ", wrong)
-        yield f"| {kind.case}, {kind.sides} | `{kind.model}` | {kind.threads} | {runs} | {killed} | {len(wrong)} |"
+        report(f"{kind}: {kills} kills, {len(wrong)} differ", wrong)
+        yield kind, f"{runs} | {kills} | {len(wrong)}"
 
 
 def two(folder: Path, given: argparse.Namespace) -> Iterator[str]:
@@ -97,7 +112,7 @@ def write(part: str, rows: list[str]) -> None:
     page.write_text(re.sub(f"{re.escape(start)}.*?{re.escape(end)}", lambda _: between, text, flags=re.DOTALL), encoding="utf-8")
 
 
-PARTS = {"kills": kills, "two": two, "damages": damages, "faults": faults}
+PARTS = {"kills": kills, "inflow": inflow, "two": two, "damages": damages, "faults": faults}
 
 
 def main() -> None:
