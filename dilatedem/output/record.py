@@ -1,6 +1,7 @@
 """run.h5 as an observer: where on each structure the load acted, how floes touched, the floes of the start."""
 
 import math
+from functools import lru_cache
 
 import numpy as np
 
@@ -35,6 +36,16 @@ class Record(Observer):
 
     name = "record"
     _archive: RunArchive | None = None  # until it is written first
+
+    def open(self, kept: dict | None, since: int) -> None:
+        super().open(kept, since)
+        if entering := self.simulation.entering:
+            self._of_strip = lru_cache(entering.stream.kept)(self._table_of)
+
+    def _table_of(self, number: int) -> FloeTable:
+        """The floes of a strip that entered, or will: a small part of all that makes it bodies."""
+        strip = self.simulation.entering.strip(number)
+        return floe_table(strip.scene, strip.ids)
 
     @classmethod
     def size(cls, case, floes: int, structures: int) -> float:
@@ -108,8 +119,8 @@ class Record(Observer):
         since = wanted[wanted >= scene.count]
         strips = entering.strips_of(since)
         for number in np.unique(strips):
-            strip, some = entering.strip(int(number)), since[strips == number]
-            tables.append(floe_table(strip.scene, strip.ids).rows(np.searchsorted(strip.ids, some)))
+            table = self._of_strip(int(number))
+            tables.append(table.rows(np.searchsorted(table.body, since[strips == number])))
         return FloeTable.of(tables)
 
     def _outlines(self) -> list[PlanOutline]:

@@ -14,6 +14,9 @@ from dilatedem.scene.place import Scene, scene_of_floes
 from dilatedem.state.bodies import Bodies
 from dilatedem.state.model import Model
 
+#: strips that are kept in memory: the one that comes next may have to wait, and be looked at again
+KEPT = 2
+
 
 @dataclass(frozen=True, eq=False)
 class Newcomers:
@@ -34,7 +37,7 @@ class Entering:
         self._case, self._scene, self.stream = case, scene, scene.stream
         #: the first that is not there at the start
         self.first = strips_at_start(case, self.stream).stop
-        self.strip = lru_cache(self.stream.kept)(self._strip)
+        self.strip = lru_cache(KEPT)(self._strip)
 
     def _strip(self, number: int) -> Newcomers:
         floes, case = self.stream.strip(number), self._case
