@@ -57,10 +57,11 @@ CHANGES = {
 
 @dataclass
 class Report:
-    """What was changed; areas in m2. points, area: of all polygons as drawn, then of the floes that came out of them; bounds [m]:
-    least x and y, largest x and y of what was drawn, in place."""
+    """What was changed; areas in m2. no_areas: entries that are points or lines; points, area: of all polygons as drawn, then of
+    the floes that came out of them; bounds [m]: least x and y, largest x and y of what was drawn, in place."""
 
     entries: int
+    no_areas: int = 0
     polygons: int = 0
     points: tuple[int, int] = (0, 0)
     area: tuple[float, float] = (0.0, 0.0)
@@ -77,7 +78,7 @@ class Report:
             if change.outlines
         }
         return {
-            "entries": self.entries, "polygons": self.polygons, "floes": self.floes,
+            "entries": self.entries, "no_areas": self.no_areas, "polygons": self.polygons, "floes": self.floes,
             "points_before": self.points[0], "points_after": self.points[1],
             "area_before_m2": self.area[0], "area_after_m2": self.area[1], "changes": told, "unused": list(self.unused),
         }  # fmt: skip
@@ -89,8 +90,12 @@ class Report:
 
 def sentences(facts: dict) -> list[str]:
     """Lines of what a `Report` holds; facts: as it gives them for files."""
-    areas = f"of {facts['area_before_m2']:.5g} m2 became {facts['floes']} floes of {facts['area_after_m2']:.5g} m2"
-    lines = [f"{facts['polygons']} outlines {areas} ({facts['points_before']} points, now {facts['points_after']})"]
+    counts = (facts["polygons"], "outline"), (facts["floes"], "floe")
+    before, after = (f"{count} {word}{'s' * (count != 1)}" for count, word in counts)
+    areas = f"of {facts['area_before_m2']:.5g} m2 became {after} of {facts['area_after_m2']:.5g} m2"
+    lines = [f"{before} {areas} ({facts['points_before']} points, now {facts['points_after']})"]
+    if facts["no_areas"]:
+        lines.append(f"entries left out that are points or lines, no areas: {facts['no_areas']}")
     for name, change in facts["changes"].items():
         areas = f"of {change['area_before_m2']:.5g} m2, now {change['area_after_m2']:.5g} m2"
         lines.append(f"{CHANGES[name]}: {change['outlines']}, {areas}")
@@ -137,7 +142,7 @@ def surveyed(
     walls: whether sides along x and along y are walls, which no floe may touch; radius: dilated radius [m]: floes that are narrower
     than their round edges are left out.
     """
-    report = Report(drawing.entries, unused=drawing.unused)
+    report = Report(drawing.entries, drawing.entries - len(drawing.outlines), unused=drawing.unused)
     polygons, owner = _polygons(drawing, wishes, report)
     polygons = _thinned(polygons, wishes.tolerance, report)
     if not wishes.parts:

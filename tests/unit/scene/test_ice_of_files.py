@@ -114,6 +114,16 @@ def test_a_file_of_which_nothing_is_left_says_where_its_outlines_lie(tmp_path):
         compose(load(write(tmp_path, boxes={(50.0, 0.0): {}})))
 
 
+def test_points_and_lines_of_a_file_are_told(tmp_path):
+    path = write(tmp_path, CASE.replace("floes.geojson", "floes.csv"))
+    (tmp_path / "floes.csv").write_text("floe,x,y\n0,0,0\n0,2,0\n0,2,2\n1,5,5\n1,7,5\n")
+    report = compose(load(path)).report
+    assert report.facts()["no_areas"] == 1 and report.facts()["entries"] == 2
+    assert report.sentences() == [
+        "1 outline of 2 m2 became 1 floe of 2 m2 (3 points, now 3)", "entries left out that are points or lines, no areas: 1",
+    ]  # fmt: skip
+
+
 def test_too_many_corners_name_the_tolerance(tmp_path):
     path = write(tmp_path, CASE.replace("size = [24.0, 20.0]", "size = [90.0, 90.0]"))
     disk = shapely.Point(-20.0, 0.0).buffer(20.0, quad_segs=200)
