@@ -4,6 +4,7 @@ from typing import Annotated
 
 from pydantic import Field
 
+from dilatedem.case.deformation import MOST_MODES
 from dilatedem.keys import Fault, PoissonRatio, Positive, Table, Vector2, Vector3, key
 
 #: points of an outline and vertices of a hull, at most: what can be looked at in a second
@@ -49,6 +50,9 @@ class Body(Table):
     density: Positive | None = key(None, "kg/m3", "Density; that of `[ice]` unless given.")
     elastic_modulus: Positive | None = key(None, "Pa", "Young's modulus; that of `[ice]` unless given.")
     poisson_ratio: PoissonRatio | None = key(None, "", "Poisson's ratio; that of `[ice]` unless given.")
+    modes: Annotated[int, Field(ge=0, le=MOST_MODES)] | None = key(
+        None, "", "Modes of vibration that it bends by; `deformation.modes` unless given."
+    )
     fixed: bool = key(
         False, "",
         "`true` holds the body where it is, whatever pushes it; the load on it is recorded like that on a structure, as "

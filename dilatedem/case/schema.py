@@ -9,6 +9,7 @@ from typing import Annotated, Any, Literal, Union
 from pydantic import Field, model_validator
 
 from dilatedem.case.bodies import Body
+from dilatedem.case.deformation import Deformation
 from dilatedem.case.domain import Domain, inflow_faults
 from dilatedem.case.field import IceField
 from dilatedem.case.names import name_faults
@@ -171,14 +172,20 @@ class Case(Table):
     structure: list[Annotated[Union[kinds.KINDS], Field(discriminator="kind")]] = []  # noqa: UP007 (a union of a list of classes)
     contact: Contact = Contact()
     time: Time = Time()
+    deformation: Deformation = Deformation()
     output: Output = Output()
     body: list[Body] = []
+
+    @property
+    def bends(self) -> bool:
+        """Whether any body does: in machine code of its own."""
+        return self.deformation.modes > 0 or any(body.modes for body in self.body)
 
     @property
     def laws(self) -> dict[str, Any]:
         """What decides which machine code a run needs: arguments of `run.loop.compile_kernels`."""
         crushing, tapers = self.ice.crushing_pressure is not None, any(structure.tapers for structure in self.structure)
-        return {"model": self.contact.model, "crushing": crushing, "tapers": tapers, "sea": self.at_sea}
+        return {"model": self.contact.model, "crushing": crushing, "tapers": tapers, "sea": self.at_sea, "bends": self.bends}
 
     @property
     def at_sea(self) -> bool:
@@ -190,7 +197,7 @@ class Case(Table):
         drift = "water.velocity" if self.ice.initial_velocity == "current" else "ice.initial_velocity"
         found += inflow_faults(self.domain, self.field, self.ice_velocity, drift)
         found += wave_faults(self.wave, self.water.enabled, self.gravity.acceleration)
-        return [*found, *self._field_faults(), *self._until_faults()]
+        return [*found, *self._field_faults(), *self._until_faults(), *self._bending_faults()]
 
     @property
     def ice_velocity(self) -> tuple[float, float, float]:
@@ -243,6 +250,18 @@ class Case(Table):
         closed = ("periodic", "wall", "inflow")
         if self.field.front == "ragged" and self.domain.x_boundary in closed and self.domain.y_boundary in closed:
             return [(("field", "front"), 'must be "straight" where no side is open: ice ends nowhere')]
+        return []
+
+    def _bending_faults(self) -> list[Fault]:
+        if not self.bends:
+            return []
+        rigid = "must be 0, of every body, where"
+        if self.water.enabled:
+            return [(("deformation", "modes"), f"{rigid} there is water: set water.enabled = false")]
+        if {"outflow", "inflow"} & set(self.domain.boundaries):
+            return [(("deformation", "modes"), f"{rigid} bodies come or go")]
+        if self.at_sea or self.field.source == "file":
+            return [(("deformation", "modes"), f"{rigid} there are waves, a wind that varies, or floes of a file")]
         return []
 
     def _until_faults(self) -> list[Fault]:

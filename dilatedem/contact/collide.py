@@ -6,9 +6,10 @@ from dilatedem.contact.laws import press
 from dilatedem.contact.search.closest import farthest_vertex
 from dilatedem.contact.search.cone import closest, radius_at
 from dilatedem.contact.spring import length
-from dilatedem.jit import device, item
+from dilatedem.jit import by_type, device, item
 from dilatedem.numerics.vector import accumulate, along, dot, load, scale, store, sub
 from dilatedem.state.ledger import GAIN_LAW, LOSS_CRUSHING, LOSS_DAMPING, LOSS_FRICTION
+from dilatedem.state.modal import ModalSolids
 
 
 @device
@@ -58,6 +59,21 @@ def _end_contact(pairs, k, dt):
 
 
 @item
+def _forget_nearest(k, solids, pairs, pa, arm):
+    pass
+
+
+@item
+def _note_nearest(k, solids, pairs, pa, arm):
+    store(pairs.point, k, pa)
+    store(pairs.arm, k, arm)
+
+
+#: note_nearest(k, solids, pairs, pa, arm): where bodies that bend are closest, for whoever asks how far they are bent there.
+note_nearest = by_type(_forget_nearest, {ModalSolids: _note_nearest}, at=1)
+
+
+@item
 def gap_between(k, shapes, vertex, face_normal, position, pairs, contact, surroundings):
     """Gap of pair k [m], negative where surfaces overlap, for bodies at `position` (n, 3), turned as `vertex` and
     `face_normal` are.
@@ -89,6 +105,7 @@ def collide(k, dt, shapes, vertex, face_normal, solids, bodies, pairs, contact, 
         gap = remember(contact, k, gap, reach, bodies, pairs, pa)
         pairs.wake[k] = bodies.path[pairs.a[k]] + bodies.path[pairs.b[k]] + gap
         store(pairs.normal, k, normal)
+        note_nearest(k, solids, pairs, pa, sub(pb, offset))
         if pairs.overlap[k] > 0.0:
             _end_contact(pairs, k, dt)
         return

@@ -3,9 +3,10 @@
 from dilatedem.contact.spring import length
 from dilatedem.jit import item
 from dilatedem.motion.integrate import kinetic_energy
+from dilatedem.motion.modal import modal_energy
 from dilatedem.numerics.rotation import rotation_matrix
 from dilatedem.numerics.vector import load
-from dilatedem.state.ledger import BUOYANCY, ELASTIC, GRAVITY, KINETIC, KINETIC_WATER
+from dilatedem.state.ledger import BUOYANCY, ELASTIC, GRAVITY, KINETIC, KINETIC_WATER, MODAL
 from dilatedem.state.response import is_free, water_energies
 from dilatedem.water.floating import submerge
 
@@ -18,7 +19,7 @@ def book_energies(model, bodies, pairs, workspace, ledger):
     Buoyancy: the water a body has displaced was lifted from the centre of buoyancy to the surface, -rho g V z_B, whose gradient
     is the buoyancy force and moment of any convex body.
     """
-    kinetic = water = weight = buoyancy = elastic = 0.0
+    kinetic = water = weight = buoyancy = elastic = modal = 0.0
     floating, solids, setting, hulls = model.floating, model.solids, model.loads, model.hulls
     q, wet = bodies.orientation, workspace.wet
     if setting.water:
@@ -29,6 +30,7 @@ def book_energies(model, bodies, pairs, workspace, ledger):
         straight, turning = water_energies(i, solids, bodies)
         kinetic += kinetic_energy(i, solids, bodies) - turning
         water += straight + turning
+        modal += modal_energy(i, solids, bodies)
         z = bodies.position[i, 2]
         weight += solids.mass[i] * setting.gravity * z
         if setting.water:
@@ -41,4 +43,4 @@ def book_energies(model, bodies, pairs, workspace, ledger):
             elastic += pairs.stored[k] + 0.5 * pairs.shear_stiffness[k] * length(load(pairs.slip, k), pairs.wrung[k]) ** 2
     stored = ledger.instant
     stored[KINETIC], stored[GRAVITY], stored[BUOYANCY], stored[ELASTIC] = kinetic, weight, buoyancy, elastic
-    stored[KINETIC_WATER] = water
+    stored[KINETIC_WATER], stored[MODAL] = water, modal

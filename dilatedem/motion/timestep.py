@@ -47,7 +47,7 @@ def critical_step(model, bodies, only=None) -> float:
     shrink = sqrt(1.0 + damping * damping) - damping
     mobility, area = _worst_mobility(shapes, solids)[free], _largest_face(shapes)[free]
     compliance, inverse_mass, radius = solids.compliance[free], _lightest(solids)[free], shapes.radius[free]
-    shortest = min(_outrunning(model, bodies, free), _swinging(model.supports))
+    shortest = min(_outrunning(model, bodies, free), _swinging(model.supports), _ringing(solids))
     # against a body like itself (both give way), against what does not move, and against structures that give way
     partners = [(2.0 * mobility, 2.0 * inverse_mass, 2.0 * compliance), (mobility, inverse_mass, compliance + stiffest_held)]
     partners += [(mobility + most, inverse_mass + most, compliance + own) for most, own in _giving(shapes, solids)]
@@ -94,6 +94,13 @@ def _swinging(supports) -> float:
     """The critical step [s] of springs and dashpots under sprung structures: as of contacts, xi the damping ratio."""
     stiffness, half_rate = supports.stiffness * supports.inverse_mass, 0.5 * supports.damping * supports.inverse_mass
     fastest = (np.sqrt(stiffness + half_rate * half_rate) + half_rate).max(initial=0.0)
+    return 2.0 / fastest if fastest > 0.0 else np.inf
+
+
+def _ringing(solids) -> float:
+    """The critical step [s] of the modes of bodies that bend, as of the springs under structures."""
+    half_rate = 0.5 * getattr(solids, "mode_damping", np.zeros(1))
+    fastest = (np.sqrt(getattr(solids, "mode_square", np.zeros(1)) + half_rate * half_rate) + half_rate).max(initial=0.0)
     return 2.0 / fastest if fastest > 0.0 else np.inf
 
 

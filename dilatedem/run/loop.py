@@ -116,21 +116,30 @@ def run_case(
     return Run(run(case_from(case, overrides), folder, threads=threads, resume=resume, overwrite=overwrite, quiet=quiet))
 
 
+#: a body that bends, of few elements
+BENDS = {
+    "body": [{"outline": [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]}], "water": {"enabled": False},
+    "deformation": {"modes": 1, "mesh_size": 1.0},
+}  # fmt: skip
+
+
 def compile_kernels(
-    threads: int = 1, model: str = "liu2015", crushing: bool = False, tapers: bool = False, sea: bool = False, *,
+    threads: int = 1, model: str = "liu2015", crushing: bool = False, tapers: bool = False, sea: bool = False,
+    bends: bool = False, *,
     announce: Callable[[str], None] = lambda said: None,
 ) -> None:
     """Compile what a run with such `Case.laws` needs, or load it from the cache; once a process, which keeps it.
 
     announce: told of what takes long
     """
-    kind = (threads, model, crushing, tapers, sea)
+    kind = (threads, model, crushing, tapers, sea, bends)
     if kind in _READY:
         return
     case = Case.model_validate({
         "field": {"source": "bodies"}, "body": [{"vertices": [[0.0, 0.0, 0.0]], "dilated_radius": 0.1}],
         "contact": {"model": model}, "ice": {"crushing_pressure": 1.0e6} if crushing else {}, "water": {"added_mass": sea},
         "structure": [{"kind": "cone"}] if tapers else [],
+        **(BENDS if bends else {}),
     })  # fmt: skip
     simulation = Simulation.of_case(case, threads=threads)
     if not simulation.is_compiled():

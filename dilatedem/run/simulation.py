@@ -33,6 +33,7 @@ from dilatedem.state.hits import HitLog, Hits
 from dilatedem.state.inflow import Inflow, inflow_at_start
 from dilatedem.state.ledger import Ledger, empty_ledger, energies
 from dilatedem.state.loads import Loads, Windows, empty_loads, no_windows
+from dilatedem.state.modal import ModalSolids, bending_room
 from dilatedem.state.model import Model
 from dilatedem.state.pairs import Pairs, empty_pairs, grown, in_use
 from dilatedem.state.setting import CRUSHING_SETTINGS
@@ -264,6 +265,10 @@ class Simulation:
             done["carried_in"] = float(self.state.inflow.carried_in[0])
         absent = [] if isinstance(self.model.contact, CRUSHING_SETTINGS) else ["loss_crushing"]
         absent += [] if self.case.water.added_mass else ["kinetic_water"]
+        if isinstance(self.model.solids, ModalSolids):
+            done["loss_modal"] = float(self.state.bodies.mode_loss.sum())
+        else:
+            absent.append("modal")
         return energies(ledger, done, absent)
 
     def assembled_step_ratio(self) -> float:
@@ -318,3 +323,6 @@ class Simulation:
         self.spare = empty_pairs(capacity)
         columns = wet_columns(self.model.loads)
         self.workspace = make_workspace(self.model.shapes, self.model.hulls, capacity, self.threads, columns)
+        if isinstance(self.model.solids, ModalSolids):
+            bodies, modes = self.model.solids.mode_square.shape
+            self.workspace = bending_room(self.workspace, self.threads, bodies, capacity, modes)

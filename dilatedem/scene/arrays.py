@@ -11,6 +11,7 @@ from dilatedem.numerics.blocks import offsets
 from dilatedem.numerics.frames import matrix_from_quaternion
 from dilatedem.numerics.plain import inverse, turned
 from dilatedem.scene.added_mass import with_water
+from dilatedem.scene.bending import bent_solids
 from dilatedem.scene.carriage import pack_supports, places, velocities_at_start
 from dilatedem.scene.joined import join_hulls, join_inertia
 from dilatedem.scene.place import Scene
@@ -18,6 +19,7 @@ from dilatedem.scene.recipe import periodic_axes
 from dilatedem.scene.records import flow_direction
 from dilatedem.state.bodies import Bodies, Solids, WateredSolids, bodies_at_rest, joined_rows
 from dilatedem.state.charts import Along, Charts
+from dilatedem.state.modal import ModalSolids, bending
 from dilatedem.state.model import Model
 from dilatedem.state.records import records_of
 from dilatedem.state.setting import CONTACT_SETTINGS, ContactSetting, Surroundings
@@ -48,7 +50,7 @@ def build_model(case: Case, scene: Scene) -> Model:
         joined=joined_rows(scene.joints.floe),
         shapes=tapered(shapes, np.concatenate([np.zeros(scene.count), [part.taper for part in parts]])),
         hulls=hulls,
-        solids=_solids(case, scene, supports, hulls),
+        solids=bent_solids(case, scene, _solids(case, scene, supports, hulls)),
         contact=_contact_setting(case),
         loads=load_setting(case),
         surroundings=Surroundings(*np.where(periodic, case.domain.size, 0.0).tolist()),
@@ -168,6 +170,8 @@ def initial_bodies(case: Case, scene: Scene, model: Model) -> Bodies:
     bodies.middle_velocity[:] = bodies.velocity
     bodies.middle_angular_velocity[:] = bodies.angular_velocity
     bodies.middle_angular_momentum[:] = bodies.angular_momentum
+    if isinstance(model.solids, ModalSolids):
+        return bending(bodies, model.solids.mode_square.shape[1])
     return bodies
 
 

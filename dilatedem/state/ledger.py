@@ -40,6 +40,8 @@ TERMS = (
     Term("work_wind", GAIN, LOAD, "work of the wind", optional=True),
     Term("work_wave", GAIN, LOAD, "work of the waves", optional=True),
     Term("kinetic_water", STORED, INSTANT, "kinetic, of the water that floes take along", optional=True),
+    Term("modal", STORED, INSTANT, "kinetic and elastic, of modes of vibration", optional=True),
+    Term("loss_modal", LOSS, LOAD, "lost to the damping of modes", optional=True),
     Term("structure_kinetic", STORED, STRUCTURE, "kinetic, of structures", optional=True),
     Term("structure_elastic", STORED, STRUCTURE, "elastic, of what carries structures", optional=True),
     Term("loss_support", LOSS, STRUCTURE, "lost in what carries structures", optional=True),
@@ -53,8 +55,8 @@ LOSS_DAMPING, LOSS_FRICTION, GAIN_LAW, LOSS_CRUSHING = map(
 )
 #: what an instant has: the entries of `Ledger.instant`, and the number of each
 INSTANTS = tuple(term.name for term in TERMS if term.owner == INSTANT)
-KINETIC, GRAVITY, BUOYANCY, ELASTIC, KINETIC_WATER = map(
-    INSTANTS.index, ("kinetic", "gravity", "buoyancy", "elastic", "kinetic_water")
+KINETIC, GRAVITY, BUOYANCY, ELASTIC, KINETIC_WATER, MODAL = map(
+    INSTANTS.index, ("kinetic", "gravity", "buoyancy", "elastic", "kinetic_water", "modal")
 )
 
 

@@ -5,13 +5,12 @@ Every item writes its own rows only, so that results do not depend on how many p
 
 from math import sqrt
 
-from dilatedem.contact.collide import collide
 from dilatedem.contact.sums import sum_contacts
 from dilatedem.contact.tally import book_contact
-from dilatedem.contact.turning import turn_shape
+from dilatedem.contact.tangent import meet
 from dilatedem.jit import device, item
 from dilatedem.motion.carry import carried_travel
-from dilatedem.motion.integrate import drift, kick
+from dilatedem.motion.modal import drift, kick, load_modes, sum_pushes
 from dilatedem.motion.paces import LONGEST_MOVE
 from dilatedem.state.response import is_free, is_joined, stride_of
 from dilatedem.step.ahead import AT_HAND, fetch_ahead
@@ -68,27 +67,9 @@ def collide_block(
             if count > AT_HAND:
                 fetch_ahead(block, w, last, shapes, solids, bodies, pairs, workspace)
             k = workspace.awake[w]
-            _turn_shapes(block, k, shapes, bodies.orientation, pairs, workspace)
             steps = stride_of(pairs.a[k], pairs.b[k], workspace)
-            collide(
-                k, dt * steps, shapes, workspace.vertex, workspace.face_normal, solids, bodies, pairs, contact, surroundings,
-                workspace.clip[block],
-            )  # fmt: skip
+            meet(block, k, dt * steps, shapes, solids, bodies, pairs, contact, surroundings, workspace)
             book_contact(k, p, dt, steps, structure_of, shapes, contact, pairs, tally)
-
-
-@item
-def _turn_shapes(block, k, shapes, orientation, pairs, workspace):
-    """Have the shapes of pair k turned to this instant by this thread.
-
-    Just before they are looked at, while they are in the processor's cache. A body that two threads look at is turned by both, and
-    both write the same.
-    """
-    instant, turned = workspace.instant[0], workspace.turned
-    for body in (pairs.a[k], pairs.b[k]):
-        if turned[block, body] != instant:
-            turned[block, body] = instant
-            turn_shape(body, shapes, orientation, workspace.vertex, workspace.face_normal)
 
 
 @item
@@ -103,6 +84,7 @@ def float_block(
     if first == last:
         return
     sum_contacts(chosen, first, last, awake, bodies, pairs, workspace)
+    sum_pushes(chosen, first, last, awake, solids, bodies, pairs, workspace)
     while last > first and chosen[last - 1] >= floating:  # structures feel no water, nor are they kicked here
         last -= 1
     if setting.water:
@@ -114,5 +96,6 @@ def float_block(
         for m in range(3):
             bodies.force[i, m] = force[m] + bodies.contact_force[i, m]
             bodies.torque[i, m] = torque[m] + bodies.contact_torque[i, m]
+        load_modes(i, stride, solids, bodies)
         if stride > 0.0 and is_free(i, solids) and not is_joined(i, solids):
             kick(i, stride, solids, bodies)

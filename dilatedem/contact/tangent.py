@@ -1,0 +1,169 @@
+"""Contacts of bodies that bend: each pair sees both bodies rigid, carried to where they are bent at the point of contact.
+
+A body is looked at through the rigid motion that its bent shape has there, displacement and turning: x = Xc + d + R (X - Xc),
+d = sum phi_i(Xc) xi_i, R the turning by 1/2 sum curl phi_i(Xc) xi_i. Geometry, laws and friction are then those of rigid bodies.
+What the contact does to a mode is the work of its wrench on the rigid motion of the mode there, so that force, moment and modal
+force are the gradient of one energy as long as Xc stays. It goes with the point of contact: the tangent bodies at two neighbouring
+points differ by the strain between them, which across a free surface is none.
+"""
+
+from dilatedem.contact.collide import collide
+from dilatedem.contact.turning import turn_shape
+from dilatedem.jit import by_type, item
+from dilatedem.numerics.rotation import rotation_matrix, to_body, to_world, turned
+from dilatedem.numerics.vector import add, along, cross, dot, load, scale, store, sub
+from dilatedem.state.modal import ModalBodies, ModalSolids
+
+NONE = (0.0, 0.0, 0.0)
+
+
+@item
+def _spline(u):
+    """Weights of the places before, at and after the nearest one, u = -1/2 to 1/2 from it, and their slopes."""
+    return (0.5 * (0.5 - u) ** 2, 0.75 - u * u, 0.5 * (0.5 + u) ** 2), (u - 0.5, -2.0 * u, u + 0.5)
+
+
+@item
+def _shapes_at(i, point, solids, shape, side):
+    """Write displacement and turning, 1/2 curl, of each mode of body i at a point of its frame to shape[side, m]."""
+    modes, size, pace = solids.mode_count[i], solids.lattice_size, solids.lattice_pace
+    for m in range(modes):
+        for c in range(6):
+            shape[side, m, c] = 0.0
+    sx, sy, sz = (
+        (point[0] - solids.lattice_origin[i, 0]) * pace[i, 0],
+        (point[1] - solids.lattice_origin[i, 1]) * pace[i, 1],
+        (point[2] - solids.lattice_origin[i, 2]) * pace[i, 2],
+    )
+    jx = min(max(int(round(sx)), 1), size[i, 0] - 2)
+    jy = min(max(int(round(sy)), 1), size[i, 1] - 2)
+    jz = min(max(int(round(sz)), 1), size[i, 2] - 2)
+    (wx, dx), (wy, dy), (wz, dz) = _spline(sx - jx), _spline(sy - jy), _spline(sz - jz)
+    for p in range(3):
+        for q in range(3):
+            for r in range(3):
+                weight = wx[p] * wy[q] * wz[r]
+                gx = 0.5 * pace[i, 0] * dx[p] * wy[q] * wz[r]
+                gy = 0.5 * pace[i, 1] * wx[p] * dy[q] * wz[r]
+                gz = 0.5 * pace[i, 2] * wx[p] * wy[q] * dz[r]
+                place = ((jx - 1 + p) * size[i, 1] + jy - 1 + q) * size[i, 2] + jz - 1 + r
+                row = solids.lattice_start[i] + place * modes
+                for m in range(modes):
+                    x, y, z = load(solids.lattice, row + m)
+                    shape[side, m, 0] += weight * x
+                    shape[side, m, 1] += weight * y
+                    shape[side, m, 2] += weight * z
+                    shape[side, m, 3] += gy * z - gz * y
+                    shape[side, m, 4] += gz * x - gx * z
+                    shape[side, m, 5] += gx * y - gy * x
+
+
+@item
+def _summed(i, values, solids, shape, side, first):
+    """sum over the modes of body i of values[i, m] times three components of their shapes."""
+    total = NONE
+    for m in range(solids.mode_count[i]):
+        total = along(total, values[i, m], (shape[side, m, first], shape[side, m, first + 1], shape[side, m, first + 2]))
+    return total
+
+
+@item
+def _carry(block, side, i, lever, solids, bodies, workspace):
+    """Write the rigid body that body i is at the point `lever` from its centroid (world axes), and how it moves."""
+    q, shape, seat = bodies.orientation, workspace.shape[block], workspace.seat[block]
+    Q = rotation_matrix(q[i, 0], q[i, 1], q[i, 2], q[i, 3])
+    quaternion, shift, whirl, slower, middle, between = (q[i, 0], q[i, 1], q[i, 2], q[i, 3]), NONE, NONE, NONE, NONE, NONE
+    if solids.mode_count[i] > 0:
+        bent = to_body(Q, lever)
+        _shapes_at(i, bent, solids, shape, side)
+        point = sub(bent, _summed(i, bodies.coordinate, solids, shape, side, 0))  # where it is unbent
+        _shapes_at(i, point, solids, shape, side)
+        moved, turn = _summed(i, bodies.coordinate, solids, shape, side, 0), _summed(i, bodies.coordinate, solids, shape, side, 3)
+        quaternion = turned(quaternion, turn, 1.0)
+        carried = to_body(Q, to_world(rotation_matrix(quaternion[0], quaternion[1], quaternion[2], quaternion[3]), point))
+        shift = to_world(Q, sub(add(point, moved), carried))
+        # how R turns as a mode goes out: its turning, and what the turning so far does to it
+        for m in range(solids.mode_count[i]):
+            own = (shape[side, m, 3], shape[side, m, 4], shape[side, m, 5])
+            own = along(own, 0.5, cross(turn, own))
+            shape[side, m, 3], shape[side, m, 4], shape[side, m, 5] = own
+        store(seat, side, carried)
+        turning = _summed(i, bodies.rate, solids, shape, side, 3)
+        whirl = to_world(Q, turning)
+        slower = to_world(Q, sub(_summed(i, bodies.rate, solids, shape, side, 0), cross(turning, carried)))
+        turning = _summed(i, bodies.middle_rate, solids, shape, side, 3)
+        between = to_world(Q, turning)
+        middle = to_world(Q, sub(_summed(i, bodies.middle_rate, solids, shape, side, 0), cross(turning, carried)))
+    seat[side, 3], seat[side, 4], seat[side, 5] = shift
+    store(workspace.bent_position[block], i, add(load(bodies.position, i), shift))
+    orientation = workspace.bent_orientation[block]
+    orientation[i, 0], orientation[i, 1], orientation[i, 2], orientation[i, 3] = quaternion
+    spin = load(bodies.angular_velocity, i)
+    store(workspace.bent_velocity[block], i, add(load(bodies.velocity, i), add(cross(spin, shift), slower)))
+    store(workspace.bent_spin[block], i, add(spin, whirl))
+    spin = load(bodies.middle_angular_velocity, i)
+    store(workspace.bent_middle_velocity[block], i, add(load(bodies.middle_velocity, i), add(cross(spin, shift), middle)))
+    store(workspace.bent_middle_spin[block], i, add(spin, between))
+
+
+@item
+def _push_modes(block, side, i, k, force, torque, solids, bodies, workspace):
+    """What a wrench on the carried body i, at its centroid, does to its modes."""
+    q, shape, push = bodies.orientation, workspace.shape[block], workspace.mode_push
+    Q = rotation_matrix(q[i, 0], q[i, 1], q[i, 2], q[i, 3])
+    own, moment = to_body(Q, force), to_body(Q, torque)
+    moment = sub(moment, cross(load(workspace.seat[block], side), own))  # about the point of contact
+    for m in range(solids.mode_count[i]):
+        work = shape[side, m, 0] * own[0] + shape[side, m, 1] * own[1] + shape[side, m, 2] * own[2]
+        push[k, side, m] = work + dot((shape[side, m, 3], shape[side, m, 4], shape[side, m, 5]), moment)
+
+
+@item
+def _turn_shapes(block, k, shapes, orientation, pairs, workspace):
+    """Have the shapes of pair k turned to this instant by this thread.
+
+    Just before they are looked at, while they are in the processor's cache. A body that two threads look at is turned by both, and
+    both write the same.
+    """
+    instant, turned = workspace.instant[0], workspace.turned
+    for body in (pairs.a[k], pairs.b[k]):
+        if turned[block, body] != instant:
+            turned[block, body] = instant
+            turn_shape(body, shapes, orientation, workspace.vertex, workspace.face_normal)
+
+
+@item
+def _meet(block, k, dt, shapes, solids, bodies, pairs, contact, surroundings, workspace):
+    _turn_shapes(block, k, shapes, bodies.orientation, pairs, workspace)
+    collide(
+        k, dt, shapes, workspace.vertex, workspace.face_normal, solids, bodies, pairs, contact, surroundings, workspace.clip[block]
+    )
+
+
+@item
+def _meet_bent(block, k, dt, shapes, solids, bodies, pairs, contact, surroundings, workspace):
+    a, b = pairs.a[k], pairs.b[k]
+    _carry(block, 0, a, load(pairs.point, k), solids, bodies, workspace)
+    _carry(block, 1, b, load(pairs.arm, k), solids, bodies, workspace)
+    vertex, face_normal, seat = workspace.bent_vertex[block], workspace.bent_face_normal[block], workspace.seat[block]
+    seen = ModalBodies(
+        workspace.bent_position[block], workspace.bent_orientation[block], workspace.bent_velocity[block],
+        workspace.bent_spin[block], bodies.angular_momentum, workspace.bent_middle_velocity[block],
+        workspace.bent_middle_spin[block], bodies.middle_angular_momentum, bodies.force, bodies.torque, bodies.contact_force,
+        bodies.contact_torque, bodies.contact_count, bodies.path, bodies.power, bodies.work, bodies.coordinate, bodies.rate,
+        bodies.middle_rate, bodies.mode_force, bodies.mode_load, bodies.mode_power, bodies.mode_loss,
+    )  # fmt: skip
+    turn_shape(a, shapes, seen.orientation, vertex, face_normal)
+    turn_shape(b, shapes, seen.orientation, vertex, face_normal)
+    collide(k, dt, shapes, vertex, face_normal, solids, seen, pairs, contact, surroundings, workspace.clip[block])
+    if pairs.overlap[k] > 0.0:
+        force, couple = load(pairs.force, k), load(pairs.couple, k)
+        turn_a, turn_b = add(couple, cross(load(pairs.point, k), force)), add(couple, cross(load(pairs.arm, k), force))
+        _push_modes(block, 0, a, k, scale(-1.0, force), scale(-1.0, turn_a), solids, bodies, workspace)
+        _push_modes(block, 1, b, k, force, turn_b, solids, bodies, workspace)
+    store(pairs.point, k, add(load(pairs.point, k), (seat[0, 3], seat[0, 4], seat[0, 5])))
+    store(pairs.arm, k, add(load(pairs.arm, k), (seat[1, 3], seat[1, 4], seat[1, 5])))
+
+
+#: meet(block, k, dt, shapes, solids, bodies, pairs, contact, surroundings, workspace): `collide` for pair k as its bodies are now.
+meet = by_type(_meet, {ModalSolids: _meet_bent}, at=4)
