@@ -15,10 +15,10 @@ from scipy.sparse.linalg import splu
 from dilatedem.deformation.elements import shares
 from dilatedem.deformation.modes import Modes
 
-#: points of an element that a field is fitted at: barycentric coordinates in so many parts
-PARTS = 3
+#: points of an element that a field is fitted at: barycentric coordinates in so many parts; more levels than a lattice has places
+PARTS = 6
 #: weight of the coefficients themselves over that of the fit: it decides where the body does not reach
-RIDGE = 1e-9
+RIDGE = 1e-11
 
 
 @dataclass(frozen=True, eq=False)

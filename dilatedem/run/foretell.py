@@ -51,6 +51,8 @@ def check(case: Case, *, trial_s: float = 0.0) -> dict:
     if len(areas):
         facts |= {"concentration": scene.field.concentration, "floe size, m": float(np.sqrt(areas.mean()))}
         facts |= distribution_facts(case, scene) | file_facts(case, scene) | thickness_facts(case, scene)
+    if case.bends:
+        facts |= modal_facts(simulation)
     for number, wave in enumerate(case.wave):
         facts[f"length of wave.{number}, m"] = case.gravity.acceleration * wave.period**2 / (2.0 * np.pi)
     for structure in scene.structures:
@@ -60,6 +62,12 @@ def check(case: Case, *, trial_s: float = 0.0) -> dict:
     facts["ice at"] = presence(simulation)
     facts["warnings"] = simulation.advice()
     return facts | _wall_time(simulation, steps, trial_s)  # last: it moves the ice
+
+
+def modal_facts(simulation: Simulation) -> dict:
+    """The highest frequency of all modes that bend bodies, and how many steps its period takes."""
+    highest = float(np.sqrt(simulation.model.solids.mode_square.max())) / (2.0 * np.pi)
+    return {"highest mode, Hz": highest, "steps in its period": 1.0 / (highest * simulation.dt)}
 
 
 def _wall_time(simulation: Simulation, steps: int, trial_s: float) -> dict:

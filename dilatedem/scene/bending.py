@@ -13,6 +13,9 @@ from dilatedem.scene.place import Scene
 from dilatedem.state.bodies import Solids
 from dilatedem.state.modal import ModalSolids
 
+#: step of the lattice over which modes are smooth fields, over the size of the elements
+LATTICE = 0.5
+
 
 def bent_solids(case: Case, scene: Scene, solids: Solids) -> Solids | ModalSolids:
     """The same bodies with their modes; `solids` itself where none has any. Raises CaseError for one that has none to have."""
@@ -67,4 +70,4 @@ def _modes(case: Case, scene: Scene, number: int, outer: Polyhedron, count: int)
         modes = modes_of(outer, material, case.deformation.mesh_size, count)
     except ValueError as fault:
         raise CaseError(f"body {number} cannot bend: it {fault}") from fault
-    return modes, lattice_of(modes, case.deformation.mesh_size)
+    return modes, lattice_of(modes, LATTICE * case.deformation.mesh_size)
