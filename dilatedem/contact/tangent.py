@@ -2,9 +2,9 @@
 
 A body is looked at through the rigid motion that its bent shape has there, displacement and turning: x = Xc + d + R (X - Xc),
 d = sum phi_i(Xc) xi_i, R the turning by 1/2 sum curl phi_i(Xc) xi_i. Geometry, laws and friction are then those of rigid bodies.
-What the contact does to a mode is the work of its wrench on the rigid motion of the mode there, so that force, moment and modal
-force are the gradient of one energy as long as Xc stays. It goes with the point of contact: the tangent bodies at two neighbouring
-points differ by the strain between them, which across a free surface is none.
+What a contact does to a mode is the work of its wrench on the rigid motion of the mode there, so that force, moment and modal force
+are the gradient of one energy as long as Xc stays: in the middle of a face that lies on a face. Else it goes with the point of
+contact: the tangent bodies at two neighbouring points differ by the strain between them, which across a free surface is none.
 """
 
 from dilatedem.contact.collide import collide
@@ -13,7 +13,9 @@ from dilatedem.jit import by_type, item
 from dilatedem.numerics.rotation import rotation_matrix, to_body, to_world, turned
 from dilatedem.numerics.vector import add, along, cross, dot, load, scale, store, sub
 from dilatedem.state.modal import ModalBodies, ModalSolids
+from dilatedem.state.modes import Mode
 
+FACE_FACE = int(Mode.FACE_FACE)
 NONE = (0.0, 0.0, 0.0)
 
 
@@ -107,6 +109,27 @@ def _carry(block, side, i, lever, solids, bodies, workspace):
 
 
 @item
+def _face_centre(i, lever, direction, shapes, orientation):
+    """The middle of the corners of the face of body i that looks in a direction, from its centroid; `lever` where it has no face.
+
+    Unlike the centre of pressure it stays, however little the faces tilt: nothing runs away, and no work is done on the way.
+    """
+    R = rotation_matrix(orientation[i, 0], orientation[i, 1], orientation[i, 2], orientation[i, 3])
+    own, most, chosen = to_body(R, direction), 0.0, -1
+    for f in range(shapes.face_start[i], shapes.face_start[i + 1]):
+        c = dot(own, load(shapes.face_normal, f))
+        if c > most:
+            most, chosen = c, f
+    if chosen < 0:
+        return lever
+    first, last = shapes.loop_start[chosen], shapes.loop_start[chosen + 1]
+    middle = NONE
+    for v in range(first, last):
+        middle = along(middle, 1.0 / (last - first), load(shapes.vertex, shapes.loop[v]))
+    return to_world(R, middle)
+
+
+@item
 def _push_modes(block, side, i, k, force, torque, solids, bodies, workspace):
     """What a wrench on the carried body i, at its centroid, does to its modes."""
     q, shape, push = bodies.orientation, workspace.shape[block], workspace.mode_push
@@ -142,9 +165,13 @@ def _meet(block, k, dt, shapes, solids, bodies, pairs, contact, surroundings, wo
 
 @item
 def _meet_bent(block, k, dt, shapes, solids, bodies, pairs, contact, surroundings, workspace):
-    a, b = pairs.a[k], pairs.b[k]
-    _carry(block, 0, a, load(pairs.point, k), solids, bodies, workspace)
-    _carry(block, 1, b, load(pairs.arm, k), solids, bodies, workspace)
+    a, b, normal = pairs.a[k], pairs.b[k], load(pairs.normal, k)
+    seat_a, seat_b = load(pairs.point, k), load(pairs.arm, k)
+    if pairs.overlap[k] > 0.0 and pairs.mode[k] == FACE_FACE:
+        seat_a = _face_centre(a, seat_a, normal, shapes, bodies.orientation)
+        seat_b = _face_centre(b, seat_b, scale(-1.0, normal), shapes, bodies.orientation)
+    _carry(block, 0, a, seat_a, solids, bodies, workspace)
+    _carry(block, 1, b, seat_b, solids, bodies, workspace)
     vertex, face_normal, seat = workspace.bent_vertex[block], workspace.bent_face_normal[block], workspace.seat[block]
     seen = ModalBodies(
         workspace.bent_position[block], workspace.bent_orientation[block], workspace.bent_velocity[block],
