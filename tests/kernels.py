@@ -17,6 +17,7 @@ from dilatedem.contact.crushing.nominal import nominal_area
 from dilatedem.contact.liu2015.cone import patch_of
 from dilatedem.contact.search.cone import closest
 from dilatedem.contact.search.simplex import closest_on_triangle
+from dilatedem.contact.shared_face import shared_part
 from dilatedem.contact.spring import carried_over, rescaled, slide, viscous_share
 from dilatedem.contact.turning import turn_shape
 from dilatedem.jit import device, kernel
@@ -76,6 +77,12 @@ def energy_of_pair(shapes, pairs, vertex, face_normal, k, offset, normal, pb, ov
 def area_of_pair(shapes, pairs, vertex, face_normal, k, offset, normal, pa, pb, depth, scratch):
     """`nominal_area` of pair k, its bodies turned."""
     return nominal_area(vertex, face_normal, shapes, pairs.a[k], pairs.b[k], offset, normal, pa, pb, depth, scratch)
+
+
+@kernel
+def shared_by_pair(shapes, vertex, face_a, face_b, offset, normal, scratch):
+    """`shared_part` of two faces, their bodies turned."""
+    return shared_part(face_a, face_b, offset, normal, vertex, shapes, scratch)
 
 
 @kernel

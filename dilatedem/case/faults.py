@@ -138,15 +138,15 @@ def _choice(words: list[str], value: Any) -> str:
 
 
 def _unknown(path: Path, data: dict) -> str:
-    """An unknown key, with the likeliest one of its own table, else the one of that name in another table."""
+    """An unknown key, with the one of that name in another table, else the likeliest one of its own."""
     owner = schema.table_of(path, data)
     known = list(owner[0].model_fields) if owner is not None else []
-    close = difflib.get_close_matches(str(path[-1]), known, n=1)
-    if close:
-        return f'unknown key; did you mean "{close[0]}"?'
     for name, table in schema.TABLES.items():
         if path[-1] in table.model_fields:
             return f'unknown key; did you mean "{name}.{path[-1]}"?'
+    close = difflib.get_close_matches(str(path[-1]), known, n=1)
+    if close:
+        return f'unknown key; did you mean "{close[0]}"?'
     return f"unknown key; known here: {', '.join(known)}"
 
 

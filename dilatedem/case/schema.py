@@ -14,6 +14,7 @@ from dilatedem.case.domain import Domain, inflow_faults
 from dilatedem.case.field import IceField
 from dilatedem.case.names import name_faults
 from dilatedem.case.sea import Water, Wave, Wind, wave_faults
+from dilatedem.case.time import Time
 from dilatedem.case.until import Until, until_faults
 from dilatedem.field import distribution
 from dilatedem.keys import (
@@ -60,6 +61,9 @@ class Ice(Table):
     crushing_exponent: Annotated[float, Field(ge=-0.7, le=0)] = key(
         0.0, "", "q of p = C (A/1 m2)^q: how the pressure falls with the nominal area of a contact; 0: not at all."
     )
+    flexural_strength: Positive = key(
+        5.0e5, "Pa", "Tension that ice bears in bending: floes that bend, and are pulled by more, are marked, counted and listed."
+    )
     initial_velocity: Literal["current"] | Vector3 = key(
         "current",
         "m/s",
@@ -99,28 +103,6 @@ class Contact(Table):
     def faults(self) -> list[Fault]:
         if self.damping_law == "touch" and self.model != "consistent":
             return [(("damping_law",), f'must be "viscous" with contact.model = "{self.model}"; "touch" is for "consistent"')]
-        return []
-
-
-class Time(Table):
-    """How long, and in which steps."""
-
-    duration: Positive = key(100.0, "s", "Simulated time.")
-    step: Literal["auto"] | Positive = key(
-        "auto",
-        "s",
-        "Time step, or `auto` for `step_fraction` of the critical one.",
-        allowed='must be "auto" or a number greater than 0',
-    )
-    step_fraction: Annotated[float, Field(gt=0, lt=1)] = key(0.1, "", "The automatic step as a share of the critical step.")
-    error_check: bool = key(
-        False, "", "`true` replays the highest hit of a run with half the step, once it is done, for the error in that one hit."
-    )
-    until: Until = key(Until(), "", "What ends the run before, see `[time.until]`.")
-
-    def faults(self) -> list[Fault]:
-        if self.step != "auto" and self.step > self.duration:
-            return [(("step",), f"must be at most time.duration, {self.duration:g} s")]
         return []
 
 
@@ -197,7 +179,7 @@ class Case(Table):
         drift = "water.velocity" if self.ice.initial_velocity == "current" else "ice.initial_velocity"
         found += inflow_faults(self.domain, self.field, self.ice_velocity, drift)
         found += wave_faults(self.wave, self.water.enabled, self.gravity.acceleration)
-        return [*found, *self._field_faults(), *self._until_faults(), *self._bending_faults()]
+        return [*found, *self._field_faults(), *self._until_faults(), *self._bending_faults(), *self._rest_faults()]
 
     @property
     def ice_velocity(self) -> tuple[float, float, float]:
@@ -256,12 +238,20 @@ class Case(Table):
         if not self.bends:
             return []
         rigid = "must be 0, of every body, where"
-        if self.water.enabled:
-            return [(("deformation", "modes"), f"{rigid} there is water: set water.enabled = false")]
         if {"outflow", "inflow"} & set(self.domain.boundaries):
             return [(("deformation", "modes"), f"{rigid} bodies come or go")]
         if self.at_sea or self.field.source == "file":
-            return [(("deformation", "modes"), f"{rigid} there are waves, a wind that varies, or floes of a file")]
+            said = "there are waves, added mass, a current or wind that varies, or floes of a file"
+            return [(("deformation", "modes"), f"{rigid} {said}")]
+        return []
+
+    def _rest_faults(self) -> list[Fault]:
+        moves = any(structure.support.moves for structure in self.structure)
+        if self.time.relaxes and (moves or self.at_sea or {"outflow", "inflow"} & set(self.domain.boundaries)):
+            said = "structures move, bodies come or go, or water or wind vary"
+            return [(("time", "mode"), f'must be "dynamic" where {said}: nothing comes to rest')]
+        if self.time.relaxes and self.time.error_check:
+            return [(("time", "error_check"), 'must be false where time.mode is "relax"')]
         return []
 
     def _until_faults(self) -> list[Fault]:

@@ -3,19 +3,26 @@
 A body is looked at through the rigid motion that its bent shape has there, displacement and turning: x = Xc + d + R (X - Xc),
 d = sum phi_i(Xc) xi_i, R the turning by 1/2 sum curl phi_i(Xc) xi_i. Geometry, laws and friction are then those of rigid bodies.
 What a contact does to a mode is the work of its wrench on the rigid motion of the mode there, so that force, moment and modal force
-are the gradient of one energy as long as Xc stays: in the middle of a face that lies on a face. Else it goes with the point of
-contact: the tangent bodies at two neighbouring points differ by the strain between them, which across a free surface is none.
+are the gradient of one energy as long as Xc stays. Where a face lies on a face, that is in the middle of what the two have in
+common; as far as this is all of a face, the body is carried by the rigid motion that fits the bent face best, on which a pressure
+that varies linearly over it does the same work. Else Xc goes with the point of contact: the tangent bodies at two neighbouring
+points differ by the strain between them, which across a free surface is none.
 """
 
-from dilatedem.contact.collide import collide
+from dilatedem.contact.collide import collide, separation
+from dilatedem.contact.shared_face import face_towards, shared_part
 from dilatedem.contact.turning import turn_shape
 from dilatedem.jit import by_type, item
 from dilatedem.numerics.rotation import rotation_matrix, to_body, to_world, turned
 from dilatedem.numerics.vector import add, along, cross, dot, load, scale, store, sub
+from dilatedem.state.ledger import GAIN_LAW, LOSS_CRUSHING, LOSS_DAMPING, LOSS_FRICTION
 from dilatedem.state.modal import ModalBodies, ModalSolids
 from dilatedem.state.modes import Mode
+from dilatedem.state.response import bulge
 
 FACE_FACE = int(Mode.FACE_FACE)
+#: what a pair's bodies are carried at, in `Pairs.seat`
+AT_POINT, AT_FACES = 0, 1
 NONE = (0.0, 0.0, 0.0)
 
 
@@ -70,16 +77,33 @@ def _summed(i, values, solids, shape, side, first):
 
 
 @item
-def _carry(block, side, i, lever, solids, bodies, workspace):
-    """Write the rigid body that body i is at the point `lever` from its centroid (world axes), and how it moves."""
+def _seated(i, lever, face, covered, Q, solids, shape, side):
+    """The point of the frame of body i at `lever` from its centroid (world axes) [m], with what its modes do there.
+
+    As far as the face is `covered`, from 0 to 1, that is the motion that fits the whole face best, else that of the point alone.
+    """
+    point = to_body(Q, lever)
+    if covered < 1.0:
+        _shapes_at(i, point, solids, shape, side)
+    if covered > 0.0:
+        arm, whole = sub(point, load(solids.face_centre, face)), solids.face_shape
+        for m in range(solids.mode_count[i]):
+            turn = whole[face, m, 3], whole[face, m, 4], whole[face, m, 5]
+            moved = add((whole[face, m, 0], whole[face, m, 1], whole[face, m, 2]), cross(turn, arm))
+            for c in range(3):
+                shape[side, m, c] = covered * moved[c] + (1.0 - covered) * shape[side, m, c] if covered < 1.0 else moved[c]
+                shape[side, m, 3 + c] = covered * turn[c] + (1.0 - covered) * shape[side, m, 3 + c] if covered < 1.0 else turn[c]
+    return point
+
+
+@item
+def _carry(block, side, i, lever, face, covered, solids, bodies, workspace):
+    """Write the rigid body that body i is at a seat, as `_seated` has it, and how it moves."""
     q, shape, seat = bodies.orientation, workspace.shape[block], workspace.seat[block]
     Q = rotation_matrix(q[i, 0], q[i, 1], q[i, 2], q[i, 3])
     quaternion, shift, whirl, slower, middle, between = (q[i, 0], q[i, 1], q[i, 2], q[i, 3]), NONE, NONE, NONE, NONE, NONE
     if solids.mode_count[i] > 0:
-        bent = to_body(Q, lever)
-        _shapes_at(i, bent, solids, shape, side)
-        point = sub(bent, _summed(i, bodies.coordinate, solids, shape, side, 0))  # where it is unbent
-        _shapes_at(i, point, solids, shape, side)
+        point = _seated(i, lever, face, covered, Q, solids, shape, side)
         moved, turn = _summed(i, bodies.coordinate, solids, shape, side, 0), _summed(i, bodies.coordinate, solids, shape, side, 3)
         quaternion = turned(quaternion, turn, 1.0)
         carried = to_body(Q, to_world(rotation_matrix(quaternion[0], quaternion[1], quaternion[2], quaternion[3]), point))
@@ -106,27 +130,6 @@ def _carry(block, side, i, lever, solids, bodies, workspace):
     spin = load(bodies.middle_angular_velocity, i)
     store(workspace.bent_middle_velocity[block], i, add(load(bodies.middle_velocity, i), add(cross(spin, shift), middle)))
     store(workspace.bent_middle_spin[block], i, add(spin, between))
-
-
-@item
-def _face_centre(i, lever, direction, shapes, orientation):
-    """The middle of the corners of the face of body i that looks in a direction, from its centroid; `lever` where it has no face.
-
-    Unlike the centre of pressure it stays, however little the faces tilt: nothing runs away, and no work is done on the way.
-    """
-    R = rotation_matrix(orientation[i, 0], orientation[i, 1], orientation[i, 2], orientation[i, 3])
-    own, most, chosen = to_body(R, direction), 0.0, -1
-    for f in range(shapes.face_start[i], shapes.face_start[i + 1]):
-        c = dot(own, load(shapes.face_normal, f))
-        if c > most:
-            most, chosen = c, f
-    if chosen < 0:
-        return lever
-    first, last = shapes.loop_start[chosen], shapes.loop_start[chosen + 1]
-    middle = NONE
-    for v in range(first, last):
-        middle = along(middle, 1.0 / (last - first), load(shapes.vertex, shapes.loop[v]))
-    return to_world(R, middle)
 
 
 @item
@@ -164,21 +167,31 @@ def _meet(block, k, dt, shapes, solids, bodies, pairs, contact, surroundings, wo
 
 
 @item
-def _meet_bent(block, k, dt, shapes, solids, bodies, pairs, contact, surroundings, workspace):
-    a, b, normal = pairs.a[k], pairs.b[k], load(pairs.normal, k)
-    seat_a, seat_b = load(pairs.point, k), load(pairs.arm, k)
-    if pairs.overlap[k] > 0.0 and pairs.mode[k] == FACE_FACE:
-        seat_a = _face_centre(a, seat_a, normal, shapes, bodies.orientation)
-        seat_b = _face_centre(b, seat_b, scale(-1.0, normal), shapes, bodies.orientation)
-    _carry(block, 0, a, seat_a, solids, bodies, workspace)
-    _carry(block, 1, b, seat_b, solids, bodies, workspace)
+def _look(block, k, dt, shapes, solids, bodies, pairs, contact, surroundings, workspace):
+    """Evaluate pair k for the rigid bodies that its bodies are at its seat."""
+    a, b, normal, point, arm = pairs.a[k], pairs.b[k], load(pairs.normal, k), load(pairs.point, k), load(pairs.arm, k)
+    face_a, face_b, covered_a, covered_b = -1, -1, 0.0, 0.0
+    if pairs.seat[k] == AT_FACES:
+        _turn_shapes(block, k, shapes, bodies.orientation, pairs, workspace)
+        face_a = face_towards(a, normal, shapes, bodies.orientation)
+        face_b = face_towards(b, scale(-1.0, normal), shapes, bodies.orientation)
+        offset = separation(bodies.position, a, b, surroundings)
+        if face_a >= 0:
+            found, middle, covered_a, covered_b = shared_part(
+                face_a, face_b, offset, normal, workspace.vertex, shapes, workspace.clip[block]
+            )
+            if found:
+                point, arm = middle, sub(middle, offset)
+    _carry(block, 0, a, point, face_a, covered_a, solids, bodies, workspace)
+    _carry(block, 1, b, arm, face_b, covered_b, solids, bodies, workspace)
     vertex, face_normal, seat = workspace.bent_vertex[block], workspace.bent_face_normal[block], workspace.seat[block]
     seen = ModalBodies(
         workspace.bent_position[block], workspace.bent_orientation[block], workspace.bent_velocity[block],
         workspace.bent_spin[block], bodies.angular_momentum, workspace.bent_middle_velocity[block],
         workspace.bent_middle_spin[block], bodies.middle_angular_momentum, bodies.force, bodies.torque, bodies.contact_force,
         bodies.contact_torque, bodies.contact_count, bodies.path, bodies.power, bodies.work, bodies.coordinate, bodies.rate,
-        bodies.middle_rate, bodies.mode_force, bodies.mode_load, bodies.mode_power, bodies.mode_loss,
+        bodies.middle_rate, bodies.mode_force, bodies.mode_load, bodies.mode_power, bodies.mode_loss, bodies.bent_power,
+        bodies.peak_tension, bodies.peak_time, bodies.peak_place, bodies.failed_at, bodies.failed_place,
     )  # fmt: skip
     turn_shape(a, shapes, seen.orientation, vertex, face_normal)
     turn_shape(b, shapes, seen.orientation, vertex, face_normal)
@@ -190,6 +203,23 @@ def _meet_bent(block, k, dt, shapes, solids, bodies, pairs, contact, surrounding
         _push_modes(block, 1, b, k, force, turn_b, solids, bodies, workspace)
     store(pairs.point, k, add(load(pairs.point, k), (seat[0, 3], seat[0, 4], seat[0, 5])))
     store(pairs.arm, k, add(load(pairs.arm, k), (seat[1, 3], seat[1, 4], seat[1, 5])))
+
+
+@item
+def _meet_bent(block, k, dt, shapes, solids, bodies, pairs, contact, surroundings, workspace):
+    """`_look`, and once more where the contact's mode asks for another seat; what that makes of its energy, the law has made."""
+    _look(block, k, dt, shapes, solids, bodies, pairs, contact, surroundings, workspace)
+    seat = AT_FACES if pairs.overlap[k] > 0.0 and pairs.mode[k] == FACE_FACE else AT_POINT
+    if pairs.overlap[k] <= 0.0:  # a tangent body is what it stands for where it was looked at, elsewhere as far off as that bends
+        pairs.wake[k] -= 2.0 * (bulge(pairs.a[k], solids, bodies) + bulge(pairs.b[k], solids, bodies))
+    elif seat != pairs.seat[k]:
+        cost, stored = pairs.cost[k], pairs.stored[k]
+        damping, friction, crushing, made = cost[LOSS_DAMPING], cost[LOSS_FRICTION], cost[LOSS_CRUSHING], cost[GAIN_LAW]
+        pairs.seat[k] = seat
+        _look(block, k, 0.0, shapes, solids, bodies, pairs, contact, surroundings, workspace)
+        made += (pairs.stored[k] if pairs.overlap[k] > 0.0 else 0.0) - stored
+        cost[LOSS_DAMPING], cost[LOSS_FRICTION], cost[LOSS_CRUSHING], cost[GAIN_LAW] = damping, friction, crushing, made
+    pairs.seat[k] = seat
 
 
 #: meet(block, k, dt, shapes, solids, bodies, pairs, contact, surroundings, workspace): `collide` for pair k as its bodies are now.

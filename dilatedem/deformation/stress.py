@@ -38,6 +38,15 @@ def _hooke(slope: np.ndarray, material: Material) -> np.ndarray:
     return stress
 
 
+def in_plane(stress: np.ndarray, normal: np.ndarray) -> np.ndarray:
+    """(..., 3) [Pa] of components (..., 6) those in the plane across `normal` (3,): along two axes of it, and their shear."""
+    one = np.cross(normal, np.eye(3)[np.abs(normal).argmin()])
+    one /= np.sqrt(one @ one)
+    axes = np.stack((one, np.cross(normal, one)))
+    turned = axes @ tensors(stress) @ axes.T
+    return np.stack((turned[..., 0, 0], turned[..., 1, 1], turned[..., 0, 1]), axis=-1)
+
+
 def tensors(stress: np.ndarray) -> np.ndarray:
     """(..., 3, 3) of components (..., 6)."""
     tensor = np.empty((*stress.shape[:-1], 3, 3))

@@ -6,7 +6,9 @@ from dilatedem.output.schedule import Schedule
 
 
 class Event(ABC):
-    """Something that changes which bodies there are, at times that it owns; one that can happen is made for each simulation."""
+    """Something that changes which bodies there are, or stops them, at times that it owns; one that can happen is made for each
+    simulation.
+    """
 
     @classmethod
     @abstractmethod

@@ -3,8 +3,9 @@
 from dilatedem.events.event import Event
 from dilatedem.events.inflow import Inflow
 from dilatedem.events.outflow import Outflow
+from dilatedem.events.relaxation import Relaxation
 
-EVENTS: tuple[type[Event], ...] = (Outflow, Inflow)
+EVENTS: tuple[type[Event], ...] = (Outflow, Inflow, Relaxation)
 
 
 def events_of(simulation) -> list[Event]:

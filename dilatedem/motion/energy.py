@@ -8,6 +8,7 @@ from dilatedem.numerics.rotation import rotation_matrix
 from dilatedem.numerics.vector import load
 from dilatedem.state.ledger import BUOYANCY, ELASTIC, GRAVITY, KINETIC, KINETIC_WATER, MODAL
 from dilatedem.state.response import is_free, water_energies
+from dilatedem.water.bent import bent_buoyancy
 from dilatedem.water.floating import submerge
 
 
@@ -38,6 +39,7 @@ def book_energies(model, bodies, pairs, workspace, ledger):
             volume, cx, cy, cz = wet[i, 0], wet[i, 1], wet[i, 2], wet[i, 3]
             height = z + up[0] * cx + up[1] * cy + up[2] * cz
             buoyancy -= setting.water_density * setting.gravity * volume * height
+            buoyancy += bent_buoyancy(i, setting, solids, bodies, workspace)
     for k in range(pairs.count[0]):
         if pairs.overlap[k] > 0.0:
             elastic += pairs.stored[k] + 0.5 * pairs.shear_stiffness[k] * length(load(pairs.slip, k), pairs.wrung[k]) ** 2

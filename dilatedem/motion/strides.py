@@ -19,6 +19,7 @@ from dilatedem.contact.collide import gap_between
 from dilatedem.contact.turning import turn_shape
 from dilatedem.jit import device, item
 from dilatedem.motion.integrate import place_ahead
+from dilatedem.motion.modal import bends
 from dilatedem.numerics.vector import dot, load, sub
 from dilatedem.state.clock import NEVER
 from dilatedem.state.response import is_free, is_joined, mobility, relative_velocity, stride_of
@@ -134,14 +135,14 @@ def choose_strides(now, end, dt, pace, near, count, model, bodies, pairs, worksp
 
 @item
 def _bound_by_bodies(dt, pace, count, solids, shapes, bodies, pairs, workspace):
-    """No body goes past its horizon in a longer stride or is kicked hard; parts of what moves as a whole keep to single steps."""
+    """No body goes past its horizon in a longer stride or is kicked hard; what moves as a whole or bends takes single steps."""
     island, most, path, horizon = workspace.island, workspace.most_steps, bodies.path, workspace.horizon
     for w in range(count):
         i = workspace.due_bodies[w]
         if island[i] < 0:
             continue
         workspace.stiffness[i], root = 0.0, island[i]
-        if solids.carried[i] or is_joined(i, solids):
+        if solids.carried[i] or is_joined(i, solids) or bends(i, solids):
             most[root] = 1.0
         if most[root] < 2.0:
             continue

@@ -19,6 +19,8 @@ SNAPSHOTS = "snapshots"
 STRUCTURES = "structures.vtu"  # those that are held; those that move:
 STRUCTURE_MOTION = "structures.csv"
 STRUCTURE_COLLECTION = "structures.pvd"
+FLEXURE = "flexure.csv"  # of floes that bend, and:
+BENT_COLLECTION = "bent.pvd"
 RUN_ARCHIVE = "run.h5"
 CHECKPOINT = "restart.h5"
 BEFORE_END = "before_end.h5"
@@ -33,11 +35,11 @@ RUN_MARKS = (CASE, FORCES, CHECKPOINT, SUMMARY)  # any one of them, and the fold
 #: files that a run replaces and removes, case.toml last: as long as it is there, the folder holds a run that may be replaced
 FILES = (
     CHECKPOINT, BEFORE_END, STOPPED, SUMMARY, RUN_ARCHIVE, FORCES, HITS, ENERGY, BODIES, ICE_COLLECTION, STRUCTURES,
-    STRUCTURE_MOTION, STRUCTURE_COLLECTION, REPORT, STATISTICS, CASE,
+    STRUCTURE_MOTION, STRUCTURE_COLLECTION, FLEXURE, BENT_COLLECTION, REPORT, STATISTICS, CASE,
 )  # fmt: skip
 #: of what lies in folders, the same
 PARTS = {
-    SNAPSHOTS: re.compile(r"(ice|structures)_\d{6,}\.vtu(\.tmp)?"),
+    SNAPSHOTS: re.compile(r"(ice|structures|bent)_\d{6,}\.vtu(\.tmp)?"),
     FIGURES: re.compile(r"(field|plan|speed|energy|extremes_.+|motion_.+|force_.+|peak_.+|load_.+|hit_.+)\.(png|svg|pdf)(\.tmp)?"),
     EXPORT: re.compile(r".+_(loads\.(csv|dat|inp)|heights\.csv)(\.tmp)?"),
 }
@@ -51,6 +53,11 @@ def snapshot_name(number: int) -> str:
 def structures_name(number: int) -> str:
     """The same of the structures that move, as the collection structures.pvd lists them."""
     return f"{SNAPSHOTS}/structures_{number:06d}.vtu"
+
+
+def bent_name(number: int) -> str:
+    """The same of the floes that bend, as the collection bent.pvd lists them."""
+    return f"{SNAPSHOTS}/bent_{number:06d}.vtu"
 
 
 def holds_run(folder) -> bool:

@@ -31,12 +31,22 @@ BODIES_COLUMNS = (
 STRUCTURES_COLUMNS = ("time_s", "structure", "x_m", "y_m", "yaw_rad", "vx_m_s", "vy_m_s", "reaction_x_N", "reaction_y_N")
 #: and of cases with a beam
 BEAM_COLUMNS = ("base_moment_x_Nm", "base_moment_y_Nm", "base_force_max_N", "base_moment_max_Nm")
+FLEXURE_COLUMNS = (
+    "body", "tension_Pa", "time_s", "place_x_m", "place_y_m", "place_z_m", "above_strength", "above_at_s", "above_x_m", "above_y_m",
+    "above_z_m",
+)  # fmt: skip
 
 TEXT_COLUMNS = frozenset({"structure", "mode"})
 # Nine digits: below the error of any figure in the tables; times stay readable (0.3, not 0.30000000000000004)
 # and a row takes half the bytes of the shortest exact form. Body numbers and counts come out whole.
 NUMBER_FORMAT = "%.9g"
 BUFFER_BYTES = 1 << 20
+
+
+def whole(columns: Sequence[str], rows: Iterable[Sequence]) -> str:
+    """A table that is written anew each time; what is no number comes out as it is."""
+    lines = [columns, *([value if isinstance(value, str) else NUMBER_FORMAT % value for value in row] for row in rows)]
+    return "".join(",".join(line) + "\n" for line in lines)
 
 
 class Table:

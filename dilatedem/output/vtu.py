@@ -32,8 +32,20 @@ CELL_DATA = {
 }
 
 
-VTK_POLYHEDRON = 42
+VTK_TRIANGLE, VTK_POLYHEDRON = 5, 42
 COMPRESSION = 1  # zlib level: coordinates are nearly random digits, a higher one saves 1 % for twice the time
+
+
+_END = b"</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n"
+
+
+def _begin(points: int, cells: int) -> bytes:
+    return (
+        f'<?xml version="1.0"?>\n<VTKFile type="UnstructuredGrid" version="0.1" header_type="UInt32" '
+        f'byte_order="{"LittleEndian" if sys.byteorder == "little" else "BigEndian"}" '
+        f'compressor="vtkZLibDataCompressor">\n<UnstructuredGrid>\n'
+        f'<Piece NumberOfPoints="{points}" NumberOfCells="{cells}">\n<Points>\n'
+    ).encode()
 
 
 class SnapshotWriter:
@@ -62,12 +74,7 @@ class SnapshotWriter:
         packed = selected(bodies, self._order)
         self._vertices = packed.vertex
         self._owner = np.repeat(self._order, corners[self._order])
-        self._begin = (
-            f'<?xml version="1.0"?>\n<VTKFile type="UnstructuredGrid" version="0.1" header_type="UInt32" '
-            f'byte_order="{"LittleEndian" if sys.byteorder == "little" else "BigEndian"}" '
-            f'compressor="vtkZLibDataCompressor">\n<UnstructuredGrid>\n'
-            f'<Piece NumberOfPoints="{len(self._owner)}" NumberOfCells="{len(self._order)}">\n<Points>\n'
-        ).encode()
+        self._begin = _begin(len(self._owner), len(self._order))
         self._cells = b"</Points>\n" + _cells_element(packed) + b"<CellData>\n"
 
     def write(self, path, position, orientation, cell_data: dict[str, np.ndarray]) -> None:
@@ -89,7 +96,7 @@ class SnapshotWriter:
             _data_array("Points", points),
             self._cells,
             *(_data_array(name, array[self._order]) for name, array in cell_data.items()),
-            b"</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n",
+            _END,
         ]
         write_bytes(path, b"".join(parts))
 
@@ -106,6 +113,25 @@ def write_structures(path, drawings: Sequence[Sequence[Polyhedron]]) -> None:
     orientation = np.tile([1.0, 0.0, 0.0, 0.0], (count, 1))
     number = np.repeat(np.arange(len(drawings)), [len(pieces) for pieces in drawings]).astype(np.int64)
     write_shapes(path, outers, np.zeros((count, 3)), orientation, {"structure": number})
+
+
+def write_surfaces(path, points, triangles: Sequence[np.ndarray], point_data: dict, cell_data: dict) -> None:
+    """Write surfaces of triangles, atomically.
+
+    points (p, 3) [m], one surface's after the other's; triangles (t, 3) of each surface, numbers of its own points; point_data: p
+    entries each; cell_data: an entry a surface.
+    """
+    sizes = [int(each.max()) + 1 for each in triangles]
+    corners = np.concatenate([each + first for each, first in zip(triangles, np.cumsum([0, *sizes[:-1]]), strict=True)])
+    counts, cells = [len(each) for each in triangles], len(corners)
+    arrays = {"connectivity": corners.ravel(), "offsets": 3 * np.arange(1, cells + 1), "types": np.full(cells, VTK_TRIANGLE)}
+    parts = [
+        _begin(len(points), cells), _data_array("Points", points), b"</Points>\n<Cells>\n",
+        *(_data_array(name, array.astype(np.int64)) for name, array in arrays.items()), b"</Cells>\n<PointData>\n",
+        *(_data_array(name, array) for name, array in point_data.items()), b"</PointData>\n<CellData>\n",
+        *(_data_array(name, np.repeat(array, counts)) for name, array in cell_data.items()), _END,
+    ]  # fmt: skip
+    write_bytes(path, b"".join(parts))
 
 
 def write_pvd(path, snapshots: Sequence[tuple[float, str]]) -> None:

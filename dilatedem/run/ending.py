@@ -57,8 +57,9 @@ class Ending(Observer):
     @property
     def end(self) -> int:
         """The step with which the run ends, as far as is known."""
-        span = self.simulation.span
-        return min([total_steps(self.simulation.case, self.simulation.dt), *(step + span for step in self._met.values())])
+        span, relaxed = self.simulation.span, self.simulation.state.relaxed
+        rest = [int(relaxed.settled[0]) + span] if relaxed and relaxed.settled[0] >= 0 else []
+        return min([total_steps(self.simulation.case, self.simulation.dt), *rest, *(step + span for step in self._met.values())])
 
     def _say_end(self) -> None:
         """Have load events end with the run."""
@@ -72,6 +73,8 @@ class Ending(Observer):
             self._sums.append(self._along().tolist())
         if step and self.schedule.is_due(step) and not self._met:
             self._met = {name: step for name in self.simulation.case.time.until.asked if getattr(self, f"_{name}")()}
+            self._say_end()
+        if self.simulation.state.relaxed:
             self._say_end()
 
     def _watched(self) -> list[int]:

@@ -8,6 +8,7 @@ from pathlib import Path
 from dilatedem.case.load import case_from
 from dilatedem.case.schema import Case
 from dilatedem.errors import CaseError, Interrupted, SimulationStopped
+from dilatedem.events.relaxation import unsettled
 from dilatedem.files.faults import FULL, told_as
 from dilatedem.files.lock import Lock
 from dilatedem.jit import start_threads
@@ -176,6 +177,9 @@ def _loop(simulation: Simulation, files: RunFolder, progress: Progress, interrup
         if interruption.asked and now < files.end:
             files.interrupt()
             raise Interrupted(f"interrupted at t = {simulation.time_s:.4f} s; the state is saved, --resume goes on from it")
+    if sentence := unsettled(simulation):
+        files.stop(f"{sentence}; the state is saved")
+        raise SimulationStopped(f"{sentence}; the state is saved")
     remarks = [files.remark(), simulation.crew.remark(), *(event.remark(simulation) for event in simulation.events)]
     for said in (*remarks, files.complete(lambda: interruption.asked)):
         if said:

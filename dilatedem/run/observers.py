@@ -12,6 +12,7 @@ from dilatedem.errors import Interrupted
 from dilatedem.files.atomic import write_text
 from dilatedem.output import checkpoint, folder
 from dilatedem.output.background import Background
+from dilatedem.output.bent import BentSnapshots, Flexure
 from dilatedem.output.energies import Energies
 from dilatedem.output.forces import Forces
 from dilatedem.output.hits import Hits
@@ -56,7 +57,8 @@ class Checkpoints(Observer):
 
 #: all observers, in the order in which they look; the first one's interval is that of the windows of loads
 OBSERVERS: tuple[type[Observer], ...] = (
-    Forces, LoadWatch, Hits, Energies, StructureMotion, TrackedBodies, Snapshots, StructureSnapshots, Record, Ending, Checkpoints,
+    Forces, LoadWatch, Hits, Energies, StructureMotion, TrackedBodies, Snapshots, StructureSnapshots, BentSnapshots, Flexure,
+    Record, Ending, Checkpoints,
 )  # fmt: skip
 
 

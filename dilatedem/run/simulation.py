@@ -9,9 +9,11 @@ import numpy as np
 
 from dilatedem.case.load import case_from
 from dilatedem.case.schema import Case
+from dilatedem.deformation.bent import Bent
 from dilatedem.errors import CaseError, SimulationStopped
 from dilatedem.events.event import Event
 from dilatedem.events.kinds import events_of
+from dilatedem.events.relaxation import Relaxed, begun
 from dilatedem.jit import Alone, NoTimer, Team, Timer, is_cached, share_among, start_threads
 from dilatedem.motion.strides import Pace
 from dilatedem.motion.timestep import critical_step, usual_speed
@@ -23,6 +25,7 @@ from dilatedem.run.hits import hit_log, hits_at_start
 from dilatedem.run.pace import STRIDE_PHASE, free_span, time_step
 from dilatedem.run.views import Floes, Structures
 from dilatedem.scene.arrays import build_model, initial_bodies, initial_excursions
+from dilatedem.scene.bending import bent_bodies
 from dilatedem.scene.entering import Entering
 from dilatedem.scene.inflow import strips_at_start
 from dilatedem.scene.overlaps import require_apart
@@ -64,10 +67,15 @@ class State:
     excursions: Excursions
     watch: Watch | None = None  # of the highest load, where `time.error_check` asks for it
     inflow: Inflow | None = None  # where ice enters
+    relaxed: Relaxed | None = None  # where it comes to rest
+
+    @property
+    def _optional(self) -> list[str]:
+        return [name for name in ("inflow", "relaxed") if getattr(self, name)]
 
     def groups(self) -> dict:
         """All arrays of the state, by name."""
-        names = ("ids", "bodies", "ledger", "loads", "hits", "clock", "excursions", *(["inflow"] if self.inflow else []))
+        names = ("ids", "bodies", "ledger", "loads", "hits", "clock", "excursions", *self._optional)
         own = {name: getattr(self, name) for name in names}
         return own | {"pairs": in_use(self.pairs)} | (self.watch.groups() if self.watch else {})
 
@@ -123,15 +131,18 @@ class Simulation:
         bodies = initial_bodies(case, scene, model)
         critical = critical_step(model, bodies)
         dt = time_step(case, critical)
-        span = free_span(case, dt)
+        span = 1 if case.time.relaxes else free_span(case, dt)
         loads = empty_loads(len(scene.records), int(model.charts.map.max(initial=-1)) + 1)
         watch = Watch(dt, span, len(scene.structures)) if case.time.error_check else None
         inflow = inflow_at_start(strips_at_start(case, scene.stream).stop) if scene.stream else None
         state = State(
             Ids(np.arange(scene.count)), bodies, empty_pairs(PAIRS_PER_BODY * scene.count + 64), empty_ledger(len(WORKS)),
             loads, hits_at_start(case, dt), clock_at_start(), initial_excursions(scene, model.supports), watch, inflow,
+            begun() if case.time.relaxes else None,
         )  # fmt: skip
-        return cls(case, scene, model, state, dt, critical, span, threads, speed=usual_speed(model, bodies))
+        return cls(
+            case, scene, model, state, dt, critical, span, threads, speed=usual_speed(model, bodies), strides=not case.time.relaxes
+        )
 
     @classmethod
     def from_case(cls, case, *, threads: int = 1, **overrides) -> "Simulation":
@@ -173,6 +184,11 @@ class Simulation:
         """
         until = self.case.time.duration if until is None else until
         self.step(max(0, math.ceil((until - self.time) / self.dt - ROUND_OFF)))
+
+    @cached_property
+    def bent(self) -> dict[int, Bent]:
+        """The bodies that bend, by number."""
+        return bent_bodies(self.case, self.scene, self.model.solids.mode_count)
 
     @property
     def time(self) -> float:
@@ -263,6 +279,8 @@ class Simulation:
             done["carried_out"] = float(ledger.carried_out[0])
         if self.state.inflow:
             done["carried_in"] = float(self.state.inflow.carried_in[0])
+        if self.state.relaxed:
+            done["loss_relax"] = float(self.state.relaxed.loss[0])
         absent = [] if isinstance(self.model.contact, CRUSHING_SETTINGS) else ["loss_crushing"]
         absent += [] if self.case.water.added_mass else ["kinetic_water"]
         if isinstance(self.model.solids, ModalSolids):

@@ -50,7 +50,7 @@ def build_model(case: Case, scene: Scene) -> Model:
         joined=joined_rows(scene.joints.floe),
         shapes=tapered(shapes, np.concatenate([np.zeros(scene.count), [part.taper for part in parts]])),
         hulls=hulls,
-        solids=bent_solids(case, scene, _solids(case, scene, supports, hulls)),
+        solids=bent_solids(case, scene, _solids(case, scene, supports, hulls), shapes),
         contact=_contact_setting(case),
         loads=load_setting(case),
         surroundings=Surroundings(*np.where(periodic, case.domain.size, 0.0).tolist()),

@@ -1,14 +1,19 @@
 """From a case to bodies that bend: the modes of each, as the arrays that kernels work on."""
 
+from dataclasses import fields
+
 import numpy as np
 
 from dilatedem.case.schema import Case
+from dilatedem.deformation.bent import Bent
 from dilatedem.deformation.elements import Material
 from dilatedem.deformation.kept import modes_of
-from dilatedem.deformation.lattice import Lattice, lattice_of
-from dilatedem.deformation.modes import Modes
+from dilatedem.deformation.lattice import lattice_of
+from dilatedem.deformation.skin import Skin, face_motion, skin_of, surface_stress
 from dilatedem.errors import CaseError
 from dilatedem.geometry.polyhedron import Polyhedron
+from dilatedem.geometry.shapes import Shapes
+from dilatedem.numerics.blocks import offsets
 from dilatedem.scene.place import Scene
 from dilatedem.state.bodies import Solids
 from dilatedem.state.modal import ModalSolids
@@ -17,30 +22,93 @@ from dilatedem.state.modal import ModalSolids
 LATTICE = 0.5
 
 
-def bent_solids(case: Case, scene: Scene, solids: Solids) -> Solids | ModalSolids:
+def bent_bodies(case: Case, scene: Scene, counts: np.ndarray) -> dict[int, Bent]:
+    """The bodies that bend, by number, in order; counts (n,): modes of each. Raises CaseError for one that has none to have."""
+    found = {number: _bent(case, scene, number, outer, int(counts[number])) for number, outer in _outers(scene) if counts[number]}
+    return dict(sorted(found.items()))
+
+
+def bent_solids(case: Case, scene: Scene, solids: Solids, shapes: Shapes) -> Solids | ModalSolids:
     """The same bodies with their modes; `solids` itself where none has any. Raises CaseError for one that has none to have."""
     counts = _counts(case, scene, solids)
     if not counts.any():
         return solids
-    most, found = int(counts.max()), {}
-    for number, outer in _outers(scene):
-        if counts[number]:
-            found[number] = _modes(case, scene, number, outer, int(counts[number]))
+    most = int(counts.max())
+    bent = bent_bodies(case, scene, counts)
     square, damping, reach = (np.zeros((len(counts), most)) for _ in range(3))
-    gradient, lattices = np.zeros((len(counts), most, 3, 3)), []
-    start, size = np.zeros(len(counts), np.int64), np.full((len(counts), 3), 3)
-    origin, pace, row = np.zeros((len(counts), 3)), np.ones((len(counts), 3)), 0
-    for number, (modes, lattice) in sorted(found.items()):
+    gradient = np.zeros((len(counts), most, 3, 3))
+    for number, (_, modes, _) in bent.items():
         k = modes.count
         square[number, :k] = modes.frequency**2
         damping[number, :k] = 2.0 * case.deformation.damping * modes.frequency
         reach[number, :k] = np.sqrt((modes.shape**2).sum(axis=2).max(axis=1))
         gradient[number, :k] = modes.inertia_gradient
-        start[number], size[number] = row, lattice.coefficients.shape[:3]
+    arrays = {"mode_count": counts, "mode_square": square, "mode_damping": damping, "mode_reach": reach}
+    arrays["inertia_gradient"] = gradient
+    arrays |= _lattices(bent, len(counts)) | _faces(shapes, bent, most) | _skins(bent, len(counts), most)
+    arrays |= _stresses(bent, len(counts), most)
+    return ModalSolids(*solids, **arrays, strength=np.full(len(counts), case.ice.flexural_strength))
+
+
+def _lattices(bent: dict[int, Bent], count: int) -> dict[str, np.ndarray]:
+    """The modes' fields, one body's after the other's."""
+    start, size = np.zeros(count, np.int64), np.full((count, 3), 3)
+    origin, pace, rows = np.zeros((count, 3)), np.ones((count, 3)), []
+    for number, (_, _, lattice) in bent.items():
+        start[number], size[number] = sum(map(len, rows)), lattice.coefficients.shape[:3]
         origin[number], pace[number] = lattice.origin, 1.0 / lattice.step
-        lattices.append(lattice.coefficients.reshape(-1, 3))
-        row += len(lattices[-1])
-    return ModalSolids(*solids, counts, square, damping, reach, gradient, start, size, origin, pace, np.concatenate(lattices))
+        rows.append(lattice.coefficients.reshape(-1, 3))
+    return {
+        "lattice_start": start,
+        "lattice_size": size,
+        "lattice_origin": origin,
+        "lattice_pace": pace,
+        "lattice": np.ascontiguousarray(np.concatenate(rows)),
+    }
+
+
+def _faces(shapes: Shapes, bent: dict[int, Bent], most: int) -> dict[str, np.ndarray]:
+    """Middle of each face of the cores, and how it moves with each of up to `most` modes."""
+    centre, moved = np.zeros((len(shapes.face_normal), 3)), np.zeros((len(shapes.face_normal), most, 6))
+    for number, (_, _, lattice) in bent.items():
+        for face in range(shapes.face_start[number], shapes.face_start[number + 1]):
+            loop = shapes.vertex[shapes.loop[shapes.loop_start[face] : shapes.loop_start[face + 1]]]
+            centre[face], own = face_motion(loop, lattice)
+            moved[face, : len(own)] = own
+    return {"face_centre": centre, "face_shape": moved}
+
+
+def _skins(bent: dict[int, Bent], count: int, most: int) -> dict[str, np.ndarray]:
+    """The surfaces of `count` bodies of up to `most` modes, one after the other."""
+    skins = [skin_of(outer, lattice) for outer, _, lattice in bent.values()]
+    faces = np.zeros(count, np.int64)
+    faces[list(bent)] = [len(skin.area) for skin in skins]
+    columns = {field.name: [_widened(getattr(skin, field.name), most, field.name) for skin in skins] for field in fields(Skin)}
+    columns["start"] = [offsets(np.concatenate([np.diff(start) for start in columns["start"]]))]
+    packed = {f"skin_{name}": np.concatenate(rows) for name, rows in columns.items()}
+    return packed | {"skin_face": offsets(faces)}
+
+
+def _stresses(bent: dict[int, Bent], count: int, most: int) -> dict[str, np.ndarray]:
+    """The stress of the modes at points of the surfaces of `count` bodies, and what bounds it."""
+    found = {number: surface_stress(modes, outer) for number, (outer, modes, _) in bent.items()}
+    bound, points = np.zeros(count), np.zeros(count, np.int64)
+    for number, (point, stress) in found.items():
+        points[number] = len(point)
+        unit = stress / bent[number].modes.frequency[:, None]
+        bound[number] = np.sqrt((unit[..., 0] ** 2 + unit[..., 1] ** 2 + 2.0 * unit[..., 2] ** 2).sum(axis=1).max())
+    return {
+        "stress_start": offsets(points),
+        "stress_point": np.concatenate([point for point, _ in found.values()]),
+        "stress_shape": np.concatenate([_widened(stress, most, "shape") for _, stress in found.values()]),
+        "stress_bound": bound,
+    }
+
+
+def _widened(values: np.ndarray, most: int, name: str) -> np.ndarray:
+    """Values of the modes of a body, with zeros for those that others have."""
+    axes = {"first": (1,), "moment": (1,), "second": (1, 2), "shape": (1,)}.get(name, ())
+    return np.pad(values, [(0, most - size if axis in axes else 0) for axis, size in enumerate(values.shape)])
 
 
 def _counts(case: Case, scene: Scene, solids: Solids) -> np.ndarray:
@@ -63,11 +131,11 @@ def _outers(scene: Scene):
         first += shape.count
 
 
-def _modes(case: Case, scene: Scene, number: int, outer: Polyhedron, count: int) -> tuple[Modes, Lattice]:
+def _bent(case: Case, scene: Scene, number: int, outer: Polyhedron, count: int) -> Bent:
     about = case.body[number] if number < scene.explicit else case.ice
     material = Material(about.elastic_modulus, about.poisson_ratio, float(scene.density[number]))
     try:
         modes = modes_of(outer, material, case.deformation.mesh_size, count)
     except ValueError as fault:
         raise CaseError(f"body {number} cannot bend: it {fault}") from fault
-    return modes, lattice_of(modes, LATTICE * case.deformation.mesh_size)
+    return Bent(outer, modes, lattice_of(modes, LATTICE * case.deformation.mesh_size))

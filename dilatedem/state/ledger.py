@@ -45,6 +45,7 @@ TERMS = (
     Term("structure_kinetic", STORED, STRUCTURE, "kinetic, of structures", optional=True),
     Term("structure_elastic", STORED, STRUCTURE, "elastic, of what carries structures", optional=True),
     Term("loss_support", LOSS, STRUCTURE, "lost in what carries structures", optional=True),
+    Term("loss_relax", LOSS, EVENT, "taken out on the way to rest", optional=True),
     Term("carried_in", GAIN, EVENT, "brought by bodies that entered", optional=True),
     Term("carried_out", LOSS, EVENT, "carried out by bodies that left", optional=True),
 )

@@ -25,6 +25,25 @@ ModalSolids = NamedTuple("ModalSolids", [
     ("lattice_origin", np.ndarray),  # (n, 3) m
     ("lattice_pace", np.ndarray),  # (n, 3) 1/m, places per metre
     ("lattice", np.ndarray),  # (rows, 3) 1/sqrt(kg)
+    ("face_centre", np.ndarray),  # (f, 3) m, of each face of the core, as `Shapes` has them
+    ("face_shape", np.ndarray),  # (f, m, 6) how it moves [1/sqrt(kg)] and turns [1/m/sqrt(kg)] with each mode
+    ("skin_face", np.ndarray),  # (n+1,) faces of each body: as in `deformation.skin.Skin`, one body after the other
+    ("skin_normal", np.ndarray),  # (f, 3)
+    ("skin_centre", np.ndarray),  # (f, 3) m
+    ("skin_reach", np.ndarray),  # (f,) m
+    ("skin_area", np.ndarray),  # (f,) m2
+    ("skin_first", np.ndarray),  # (f, m, 3) m2/sqrt(kg)
+    ("skin_moment", np.ndarray),  # (f, m, 6) m3/sqrt(kg)
+    ("skin_second", np.ndarray),  # (f, m, m, 6) m2/kg
+    ("skin_start", np.ndarray),  # (f+1,) points of each face
+    ("skin_point", np.ndarray),  # (p, 3) m
+    ("skin_weight", np.ndarray),  # (p,) m2
+    ("skin_shape", np.ndarray),  # (p, m, 3) 1/sqrt(kg)
+    ("stress_start", np.ndarray),  # (n+1,) points of the surface where each body's stress is looked at
+    ("stress_point", np.ndarray),  # (q, 3) m
+    ("stress_shape", np.ndarray),  # (q, m, 3) Pa/(m sqrt(kg)), in the plane of the surface: along two axes across each other, shear
+    ("stress_bound", np.ndarray),  # (n,) Pa s/(m sqrt(kg)), what no tension is above over the root of sum w_i^2 xi_i^2
+    ("strength", np.ndarray),  # (n,) Pa that the body bears in bending
 ])  # fmt: skip
 
 #: `Bodies` with the coordinates of their modes
@@ -34,9 +53,15 @@ ModalBodies = NamedTuple("ModalBodies", [
     ("rate", np.ndarray),  # (n, m) m sqrt(kg)/s
     ("middle_rate", np.ndarray),  # (n, m) half a step ago
     ("mode_force", np.ndarray),  # (n, m) sqrt(kg) m/s2, all that acts on the mode: its acceleration
-    ("mode_load", np.ndarray),  # (n, m) the same of contacts alone
+    ("mode_load", np.ndarray),  # (n, m) the same of contacts, water and wind alone
     ("mode_power", np.ndarray),  # (n,) W that the damping of modes takes up
     ("mode_loss", np.ndarray),  # (n,) J that it has taken up since the start
+    ("bent_power", np.ndarray),  # (n, works) W that the loads in `water.loads.WORKS` do on modes; `work` has what they did
+    ("peak_tension", np.ndarray),  # (n,) Pa, the largest principal stress at a point of the surface so far
+    ("peak_time", np.ndarray),  # (n,) s, when that was
+    ("peak_place", np.ndarray),  # (n,) of `ModalSolids.stress_point`, where
+    ("failed_at", np.ndarray),  # (n,) s, when it was first above the body's strength; infinite: never
+    ("failed_place", np.ndarray),  # (n, 3) m, world, where
 ])  # fmt: skip
 
 #: `Workspace` with what each thread needs to meet bodies as they are bent where they touch (`contact.tangent`)
@@ -53,13 +78,26 @@ ModalWorkspace = NamedTuple("ModalWorkspace", [
     ("shape", np.ndarray),  # (threads, 2, m, 6) of the modes of a pair's bodies: displacement [1/sqrt(kg)], turning [1/m/sqrt(kg)]
     ("seat", np.ndarray),  # (threads, 2, 6) m: what is carried from the centroid, turned with the bent body; where it is carried to
     ("mode_push", np.ndarray),  # (pairs, 2, m) sqrt(kg) m/s2, of each contact on the modes of its bodies
+    ("mode_idle", np.ndarray),  # (1, m) the same, that nobody asks for
+    ("spread", np.ndarray),  # (n, m, 3) m2/sqrt(kg), integral of the modes' shapes over what a drag is spread over
 ])  # fmt: skip
 
 
 def bending(bodies: Bodies, modes: int) -> ModalBodies:
     """The same bodies, unbent and at rest, of up to `modes` modes."""
     count = len(bodies.path)
-    return ModalBodies(*bodies, *(np.zeros((count, modes)) for _ in range(5)), np.zeros(count), np.zeros(count))
+    coordinate, rate, middle_rate, mode_force, mode_load = (np.zeros((count, modes)) for _ in range(5))
+    return ModalBodies(
+        *bodies, coordinate, rate, middle_rate, mode_force, mode_load,
+        mode_power=np.zeros(count),
+        mode_loss=np.zeros(count),
+        bent_power=np.zeros_like(bodies.power),
+        peak_tension=np.zeros(count),
+        peak_time=np.zeros(count),
+        peak_place=np.zeros(count, np.int64),
+        failed_at=np.full(count, np.inf),
+        failed_place=np.zeros((count, 3)),
+    )  # fmt: skip
 
 
 def bending_room(workspace: Workspace, threads: int, bodies: int, pairs: int, modes: int) -> ModalWorkspace:
@@ -77,4 +115,6 @@ def bending_room(workspace: Workspace, threads: int, bodies: int, pairs: int, mo
         shape=np.zeros((threads, 2, modes, 6)),
         seat=np.zeros((threads, 2, 6)),
         mode_push=np.zeros((pairs, 2, modes)),
+        mode_idle=np.zeros((1, modes)),
+        spread=np.zeros((bodies, modes, 3)),
     )

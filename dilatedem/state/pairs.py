@@ -64,6 +64,7 @@ COLUMNS = (
     Column("tangent", 1, np.float64, RESULT, "N/m, what the normal force rises by with the overlap"),
     Column("size", 1, np.float64, RESULT, "length or area of the patch, m or m2; 1 for a contact at a point"),
     Column("slide_loss", 1, np.float64, MEMORY, "N/m, most of what the ice can take that the contact loses as it slides"),
+    Column("seat", 1, np.int64, MEMORY, "where bodies that bend are carried: 0 the point of contact, 1 their faces"),
     Column("rounds", 1, np.int64, LEDGER, "rounds of the last distance search"),
     Column("cost", len(COSTS), np.float64, LEDGER, "J of each of `state.ledger.COSTS` in the last step"),
 )

@@ -163,3 +163,12 @@ def mobility(i, solids, orientation, lever, normal):
     xx, yy, zz = give[i, 0, 0] * x * x, give[i, 1, 1] * y * y, give[i, 2, 2] * z * z
     xy, xz, yz = give[i, 0, 1] * x * y, give[i, 0, 2] * x * z, give[i, 1, 2] * y * z
     return total + ((xx + yy) + zz) + 2.0 * ((xy + xz) + yz)
+
+
+@item
+def bulge(i, solids, bodies):
+    """How far [m] no point of body i is from where it is unbent."""
+    farthest = 0.0
+    for m in range(solids.mode_count[i]):
+        farthest += abs(bodies.coordinate[i, m]) * solids.mode_reach[i, m]
+    return farthest

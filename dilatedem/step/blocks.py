@@ -10,10 +10,12 @@ from dilatedem.contact.tally import book_contact
 from dilatedem.contact.tangent import meet
 from dilatedem.jit import device, item
 from dilatedem.motion.carry import carried_travel
+from dilatedem.motion.flexure import watch_stress
 from dilatedem.motion.modal import drift, kick, load_modes, sum_pushes
 from dilatedem.motion.paces import LONGEST_MOVE
 from dilatedem.state.response import is_free, is_joined, stride_of
 from dilatedem.step.ahead import AT_HAND, fetch_ahead
+from dilatedem.water.bent import bent_loads
 from dilatedem.water.loads import body_loads, wet_bodies
 
 
@@ -93,9 +95,11 @@ def float_block(
         i = chosen[w]
         stride = dt * workspace.stride[i]
         force, torque = body_loads(i, stride, time, setting, hulls, solids, bodies, workspace.wet)
+        force, torque = bent_loads(i, stride, time, setting, hulls, solids, bodies, workspace, force, torque)
         for m in range(3):
             bodies.force[i, m] = force[m] + bodies.contact_force[i, m]
             bodies.torque[i, m] = torque[m] + bodies.contact_torque[i, m]
         load_modes(i, stride, solids, bodies)
         if stride > 0.0 and is_free(i, solids) and not is_joined(i, solids):
             kick(i, stride, solids, bodies)
+        watch_stress(i, time, solids, bodies)

@@ -37,7 +37,7 @@ def sagging(body: Meshed) -> Bent:
     share = np.array([-_sag(body, shape) for shape in body.modes.shape]) * coordinate
     symmetric = np.abs(share) > LOADED * np.abs(share).max()
     stress = corner_stress(body.elements, moved)
-    return Bent(-_sag(body, moved), np.concatenate(([0.0], np.cumsum(share[symmetric]))), _surface_stress(body, stress, 0.0))
+    return Bent(-_sag(body, moved), np.concatenate(([0.0], np.cumsum(share[symmetric]))), surface_stress(body, stress, 0.0))
 
 
 def _sag(body: Meshed, displacement: np.ndarray) -> float:
@@ -48,7 +48,7 @@ def _sag(body: Meshed, displacement: np.ndarray) -> float:
     return float(middle - np.mean(ends))
 
 
-def _surface_stress(body: Meshed, stress: np.ndarray, x: float) -> float:
+def surface_stress(body: Meshed, stress: np.ndarray, x: float) -> float:
     """Bending stress along the beam at its surfaces, over x [m]: half the difference of below and above, mean over the width."""
     corners = body.mesh.points
     found = []
@@ -81,4 +81,4 @@ def floating(body: Meshed, load: float) -> np.ndarray:
 def recovered_moment(body: Meshed, force: np.ndarray, x: float) -> float:
     """Bending moment [N m] at x [m] from the loaded end, positive where the upper side is pulled, from the recovered stress."""
     stress = corner_stress(body.elements, Flexibility.of(body.elements).displacement(force))
-    return -_surface_stress(body, stress, x - 0.5 * LENGTH) * second_moment() / (0.5 * THICKNESS)
+    return -surface_stress(body, stress, x - 0.5 * LENGTH) * second_moment() / (0.5 * THICKNESS)

@@ -15,9 +15,9 @@ def test_bodies_are_rigid_unless_told():
 
 
 @pytest.mark.parametrize(("more", "said"), [
-    ({"water": {"enabled": True}}, "there is water"),
+    ({"water": {"enabled": True, "added_mass": True}}, "added mass"),
     ({"domain": {"x_boundary": "outflow"}}, "bodies come or go"),
-    ({"wind": {"velocity_table": [[0.0, 1.0, 0.0], [1.0, 2.0, 0.0]]}}, "a wind that varies"),
+    ({"wind": {"velocity_table": [[0.0, 1.0, 0.0], [1.0, 2.0, 0.0]]}}, "wind that varies"),
 ])  # fmt: skip
 def test_what_would_not_load_the_modes_is_refused(more, said):
     with pytest.raises(ValidationError, match=said):

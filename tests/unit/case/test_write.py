@@ -86,7 +86,7 @@ def test_every_default_is_explicit_and_units_stand_beside():
     assert set(data["structure"][0]) == {
         "kind", "name", "center", "radius", "elastic_modulus", "poisson_ratio", "support"
     }
-    assert set(data["body"][0]) == set(Body.model_fields) - {"outline", "outline_tolerance", "thickness"}
+    assert set(data["body"][0]) == set(Body.model_fields) - {"outline", "outline_tolerance", "thickness", "modes"}
     assert "velocity = [0.3, 0.0]  # m/s\n" in text
     assert 'step = "auto"\n' in text
 

@@ -1,0 +1,127 @@
+"""The surface of a body that bends, as water and wind see it: points of each face, and sums of the modes' shapes over them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from dilatedem.deformation.lattice import Lattice
+from dilatedem.deformation.modes import Modes
+from dilatedem.deformation.stress import COLUMN, ROW, in_plane
+from dilatedem.geometry.polyhedron import Polyhedron
+
+#: triangles that the surface of a body is cut into, about: their edges' middles integrate what is quadratic over each exactly
+TRIANGLES = 48
+#: the same of a face that lies on another, at least
+FACE_TRIANGLES = 64
+#: distance over the extent of a body, up to which a corner of its mesh is on a face
+ON_FACE = 1e-7
+
+
+@dataclass(frozen=True, eq=False)
+class Skin:
+    """f flat faces of normals (f, 3), with m modes of shapes phi; symmetric 3 x 3 as xx, yy, zz, 2 yz, 2 zx, 2 xy: n.A.n = q.A for
+    q of the products of n's components.
+
+    centre  (f, 3) [m], reach (f,) [m] from there to the farthest corner, area (f,) [m2]
+    first   (f, m, 3) [m2/sqrt(kg)]: int phi_i dA;  moment (f, m, 6): int x phi_i dA;  second (f, m, m, 6): int phi_i phi_j dA
+    start   (f+1,) of each face's points (p, 3) [m], of areas weight (p,) [m2] and shapes shape (p, m, 3)
+    """
+
+    normal: np.ndarray
+    centre: np.ndarray
+    reach: np.ndarray
+    area: np.ndarray
+    first: np.ndarray
+    moment: np.ndarray
+    second: np.ndarray
+    start: np.ndarray
+    point: np.ndarray
+    weight: np.ndarray
+    shape: np.ndarray
+
+
+def skin_of(body: Polyhedron, lattice: Lattice) -> Skin:
+    """The surface of a convex body about its centroid, which bends by the fields of a lattice."""
+    loops = [body.vertices[face] for face in body.faces]
+    surface = sum(float(_areas(_fan(loop)).sum()) for loop in loops)
+    cut = [_points(_fan(loop), surface / TRIANGLES) for loop in loops]
+    start = np.concatenate([[0], np.cumsum([len(points) for points, _ in cut])])
+    point, weight = np.concatenate([points for points, _ in cut]), np.concatenate([areas for _, areas in cut])
+    shape = lattice.at(point).transpose(1, 0, 2)
+    faces = [slice(a, b) for a, b in zip(start[:-1], start[1:], strict=True)]
+    area = np.array([weight[face].sum() for face in faces])
+    centre = np.stack([weight[face] @ point[face] for face in faces]) / area[:, None]
+    reach = np.array([np.sqrt(((loop - c) ** 2).sum(axis=1).max()) for loop, c in zip(loops, centre, strict=True)])
+    first = np.stack([np.einsum("p,pmc->mc", weight[face], shape[face]) for face in faces])
+    moment = np.stack([_paired(weight[face], point[face][:, None], shape[face])[:, 0] for face in faces])
+    second = np.stack([_paired(weight[face], shape[face], shape[face]) for face in faces])
+    return Skin(body.normals, centre, reach, area, first, moment, second, start, point, weight, shape)
+
+
+def surface_stress(modes: Modes, body: Polyhedron) -> tuple[np.ndarray, np.ndarray]:
+    """Corners (q, 3) [m] of the mesh on the faces of a body, those of several faces for each, and the stress there of each mode in
+    the plane of the face (q, m, 3) [Pa/(m sqrt(kg))]: see `stress.in_plane`."""
+    corner, stress = modes.nodes[: modes.stress.shape[1]], modes.stress.transpose(1, 0, 2)
+    near, points, found = ON_FACE * np.ptp(body.vertices, axis=0).max(), [], []
+    for face, normal in zip(body.faces, body.normals, strict=True):
+        on = np.abs((corner - body.vertices[face[0]]) @ normal) < near
+        points.append(corner[on])
+        found.append(in_plane(stress[on], normal))
+    return np.concatenate(points), np.concatenate(found)
+
+
+def face_motion(loop: np.ndarray, lattice: Lattice) -> tuple[np.ndarray, np.ndarray]:
+    """The middle (3,) [m] of a flat face of corners (k, 3) [m], and displacement [1/sqrt(kg)] and turning [1/m/sqrt(kg)] (m, 6) of
+    the rigid motion that each mode of a lattice moves it by, but for the least squares over the face."""
+    fan = _fan(loop)
+    point, weight = _points(fan, float(_areas(fan).sum()) / FACE_TRIANGLES)
+    shape, total = lattice.at(point), weight.sum()
+    centre = weight @ point / total
+    arm, moved = point - centre, np.einsum("p,mpc->mc", weight, shape) / total
+    inertia = (weight @ (arm**2).sum(axis=1)) * np.eye(3) - np.einsum("p,pa,pb->ab", weight, arm, arm)
+    turned = np.linalg.solve(inertia, np.einsum("p,mpc->cm", weight, np.cross(arm, shape))).T
+    return centre, np.concatenate((moved, turned), axis=1)
+
+
+def _paired(weight: np.ndarray, one: np.ndarray, other: np.ndarray) -> np.ndarray:
+    """(m, k, 6) sums over points of the symmetric parts of other (p, m, 3) times one (p, k, 3), those off the diagonal twice."""
+    tensor = np.einsum("p,pma,pkb->mkab", weight, other, one)
+    paired = tensor[..., ROW, COLUMN] + tensor[..., COLUMN, ROW]
+    paired[..., :3] *= 0.5
+    return paired
+
+
+def _fan(loop: np.ndarray) -> np.ndarray:
+    """(k, 3, 3) triangles from the middle of a face's corners (k, 3) to its edges."""
+    middle = np.broadcast_to(loop.mean(axis=0), loop.shape)
+    return np.stack((middle, loop, np.roll(loop, -1, axis=0)), axis=1)
+
+
+def _areas(triangles: np.ndarray) -> np.ndarray:
+    return 0.5 * np.sqrt((np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]) ** 2).sum(axis=1))
+
+
+def _points(triangles: np.ndarray, largest: float) -> tuple[np.ndarray, np.ndarray]:
+    """Middles of the edges of triangles no larger than `largest` [m2], and their areas; those of two triangles once."""
+    points, areas = [], []
+    for triangle, area in zip(triangles, _areas(triangles), strict=True):
+        parts = int(np.ceil(np.sqrt(area / largest)))
+        for a, b, c in _parts(triangle, parts):
+            points += [0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a)]
+            areas += [area / (3.0 * parts * parts)] * 3
+    points, digits = np.array(points), np.sqrt(largest) * 1e-6
+    _, chosen, group = np.unique(np.round(points / digits), axis=0, return_index=True, return_inverse=True)
+    return points[chosen], np.bincount(group.ravel(), areas)
+
+
+def _parts(triangle: np.ndarray, parts: int):
+    """The corners of each of parts^2 equal triangles."""
+    origin, u, v = triangle[0], (triangle[1] - triangle[0]) / parts, (triangle[2] - triangle[0]) / parts
+    for i in range(parts):
+        for j in range(parts - i):
+            corner = origin + i * u + j * v
+            yield corner, corner + u, corner + v
+            if i + j < parts - 1:
+                yield corner + u, corner + u + v, corner + v
