@@ -5,16 +5,22 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.sparse import csr_matrix
 
+from dilatedem.deformation.elements import EDGES
 from dilatedem.deformation.lattice import Lattice
+from dilatedem.deformation.mesh import Mesh
 from dilatedem.deformation.modes import Modes
 from dilatedem.deformation.stress import COLUMN, ROW, in_plane
 from dilatedem.geometry.polyhedron import Polyhedron
+from dilatedem.numerics.blocks import offsets
 
-#: triangles that the surface of a body is cut into, about: their edges' middles integrate what is quadratic over each exactly
-TRIANGLES = 48
-#: the same of a face that lies on another, at least
+#: triangles that a face which lies on another is cut into, at least
 FACE_TRIANGLES = 64
+#: thickness over the smaller extent in plan, below which a body is a plate
+THIN = 0.3
+#: how far up the normal of a side may look
+UPRIGHT = 1e-6
 #: distance over the extent of a body, up to which a corner of its mesh is on a face
 ON_FACE = 1e-7
 
@@ -42,22 +48,52 @@ class Skin:
     shape: np.ndarray
 
 
-def skin_of(body: Polyhedron, lattice: Lattice) -> Skin:
-    """The surface of a convex body about its centroid, which bends by the fields of a lattice."""
-    loops = [body.vertices[face] for face in body.faces]
-    surface = sum(float(_areas(_fan(loop)).sum()) for loop in loops)
-    cut = [_points(_fan(loop), surface / TRIANGLES) for loop in loops]
-    start = np.concatenate([[0], np.cumsum([len(points) for points, _ in cut])])
-    point, weight = np.concatenate([points for points, _ in cut]), np.concatenate([areas for _, areas in cut])
-    shape = lattice.at(point).transpose(1, 0, 2)
-    faces = [slice(a, b) for a, b in zip(start[:-1], start[1:], strict=True)]
-    area = np.array([weight[face].sum() for face in faces])
-    centre = np.stack([weight[face] @ point[face] for face in faces]) / area[:, None]
+def skin_of(body: Polyhedron, modes: Modes) -> Skin:
+    """The surface of a convex body about its centroid, which bends by its modes: all faces, or top and bottom of a plate.
+
+    Points are the middles of the edges of its elements, where modes are known, and which integrate what is quadratic over each
+    triangle exactly.
+    """
+    surface, middle = _surface(modes)
+    corner = modes.nodes[surface]
+    near = ON_FACE * np.ptp(body.vertices, axis=0).max()
+    faces = [f for f in range(len(body.faces)) if not _is_side(body, f)]
+    points, weights, shapes = [], [], []
+    for f in faces:
+        on = (np.abs((corner - body.vertices[body.faces[f][0]]) @ body.normals[f]) < near).all(axis=1)
+        node, group = np.unique(middle[on], return_inverse=True)
+        points.append(modes.nodes[node])
+        weights.append(np.bincount(group.ravel(), np.repeat(_areas(corner[on]) / 3.0, 3)))
+        shapes.append(modes.shape[:, node].transpose(1, 0, 2))
+    area = np.array([weight.sum() for weight in weights])
+    centre = np.stack([weight @ point for weight, point in zip(weights, points, strict=True)]) / area[:, None]
+    loops = [body.vertices[body.faces[f]] for f in faces]
     reach = np.array([np.sqrt(((loop - c) ** 2).sum(axis=1).max()) for loop, c in zip(loops, centre, strict=True)])
-    first = np.stack([np.einsum("p,pmc->mc", weight[face], shape[face]) for face in faces])
-    moment = np.stack([_paired(weight[face], point[face][:, None], shape[face])[:, 0] for face in faces])
-    second = np.stack([_paired(weight[face], shape[face], shape[face]) for face in faces])
-    return Skin(body.normals, centre, reach, area, first, moment, second, start, point, weight, shape)
+    first = np.stack([np.einsum("p,pmc->mc", weight, shape) for weight, shape in zip(weights, shapes, strict=True)])
+    each = list(zip(weights, points, shapes, strict=True))
+    moment = np.stack([_paired(weight, point[:, None], shape)[:, 0] for weight, point, shape in each])
+    second = np.stack([_paired(weight, shape, shape) for weight, _, shape in each])
+    return Skin(
+        body.normals[faces], centre, reach, area, first, moment, second, offsets([len(weight) for weight in weights]),
+        np.concatenate(points), np.concatenate(weights), np.concatenate(shapes),
+    )  # fmt: skip
+
+
+def _surface(modes: Modes) -> tuple[np.ndarray, np.ndarray]:
+    """Corners (s, 3) of the triangles of the surface, and the nodes (s, 3) in the middles of their edges."""
+    surface = Mesh(modes.nodes, modes.elements[:, :4]).surface()
+    ends = np.sort(modes.elements[:, np.transpose(EDGES)].transpose(0, 2, 1), axis=2).reshape(-1, 2)
+    between = csr_matrix((modes.elements[:, 4:].ravel() + 1.0, (ends[:, 0], ends[:, 1])), shape=(len(modes.nodes),) * 2)
+    times = csr_matrix((np.ones(len(ends)), (ends[:, 0], ends[:, 1])), shape=between.shape)  # edges of several elements
+    edges = np.sort(np.stack((surface, np.roll(surface, -1, axis=1)), axis=-1), axis=-1).reshape(-1, 2)
+    total, count = (np.asarray(matrix[edges[:, 0], edges[:, 1]]).ravel() for matrix in (between, times))
+    return surface, np.rint(total / count).astype(np.int64).reshape(-1, 3) - 1
+
+
+def _is_side(body: Polyhedron, face: int) -> bool:
+    """Whether a face is upright and the body a plate, whose sides the water pushes sideways alone."""
+    extent = np.ptp(body.vertices, axis=0)
+    return bool(extent[2] < THIN * extent[:2].min() and abs(body.normals[face, 2]) < UPRIGHT)
 
 
 def surface_stress(modes: Modes, body: Polyhedron) -> tuple[np.ndarray, np.ndarray]:

@@ -65,9 +65,11 @@ def check(case: Case, *, trial_s: float = 0.0) -> dict:
 
 
 def modal_facts(simulation: Simulation) -> dict:
-    """The highest frequency of all modes that bend bodies, and how many steps its period takes."""
+    """The highest frequency of all modes that bend bodies, how many steps its period takes, and what stays rigid."""
     highest = float(np.sqrt(simulation.model.solids.mode_square.max())) / (2.0 * np.pi)
-    return {"highest mode, Hz": highest, "steps in its period": 1.0 / (highest * simulation.dt)}
+    counts, free = simulation.model.solids.mode_count, simulation.model.solids.inverse_mass > 0.0
+    rigid = int(np.count_nonzero(free & (counts == 0)))
+    return {"highest mode, Hz": highest, "steps in its period": 1.0 / (highest * simulation.dt), "floes that stay rigid": rigid}
 
 
 def _wall_time(simulation: Simulation, steps: int, trial_s: float) -> dict:

@@ -20,12 +20,17 @@ from dilatedem.state.modal import ModalSolids
 
 #: step of the lattice over which modes are smooth fields, over the size of the elements
 LATTICE = 0.5
+#: sizes that a body is meshed with, each so much smaller than the one before, until its elements are of fair shape
+TRIES, SMALLER = 4, 0.7
 
 
 def bent_bodies(case: Case, scene: Scene, counts: np.ndarray) -> dict[int, Bent]:
-    """The bodies that bend, by number, in order; counts (n,): modes of each. Raises CaseError for one that has none to have."""
+    """The bodies that bend, by number, in order; counts (n,): modes of each.
+
+    Raises CaseError for a listed body that has none to have; a floe of a field that no elements of fair shape fill stays rigid.
+    """
     found = {number: _bent(case, scene, number, outer, int(counts[number])) for number, outer in _outers(scene) if counts[number]}
-    return dict(sorted(found.items()))
+    return {number: bent for number, bent in sorted(found.items()) if bent}
 
 
 def bent_solids(case: Case, scene: Scene, solids: Solids, shapes: Shapes) -> Solids | ModalSolids:
@@ -35,6 +40,9 @@ def bent_solids(case: Case, scene: Scene, solids: Solids, shapes: Shapes) -> Sol
         return solids
     most = int(counts.max())
     bent = bent_bodies(case, scene, counts)
+    counts[np.setdiff1d(np.arange(len(counts)), list(bent))] = 0
+    if not bent:
+        raise CaseError("no floe can bend: make deformation.mesh_size smaller")
     square, damping, reach = (np.zeros((len(counts), most)) for _ in range(3))
     gradient = np.zeros((len(counts), most, 3, 3))
     for number, (_, modes, _) in bent.items():
@@ -80,7 +88,7 @@ def _faces(shapes: Shapes, bent: dict[int, Bent], most: int) -> dict[str, np.nda
 
 def _skins(bent: dict[int, Bent], count: int, most: int) -> dict[str, np.ndarray]:
     """The surfaces of `count` bodies of up to `most` modes, one after the other."""
-    skins = [skin_of(outer, lattice) for outer, _, lattice in bent.values()]
+    skins = [skin_of(outer, modes) for outer, modes, _ in bent.values()]
     faces = np.zeros(count, np.int64)
     faces[list(bent)] = [len(skin.area) for skin in skins]
     columns = {field.name: [_widened(getattr(skin, field.name), most, field.name) for skin in skins] for field in fields(Skin)}
@@ -131,11 +139,18 @@ def _outers(scene: Scene):
         first += shape.count
 
 
-def _bent(case: Case, scene: Scene, number: int, outer: Polyhedron, count: int) -> Bent:
+def _bent(case: Case, scene: Scene, number: int, outer: Polyhedron, count: int) -> Bent | None:
     about = case.body[number] if number < scene.explicit else case.ice
     material = Material(about.elastic_modulus, about.poisson_ratio, float(scene.density[number]))
-    try:
-        modes = modes_of(outer, material, case.deformation.mesh_size, count)
-    except ValueError as fault:
-        raise CaseError(f"body {number} cannot bend: it {fault}") from fault
-    return Bent(outer, modes, lattice_of(modes, LATTICE * case.deformation.mesh_size))
+    sizes = case.deformation.mesh_size * SMALLER ** np.arange(TRIES)
+    for size in sizes.tolist():
+        try:
+            modes = modes_of(outer, material, size, count)
+            break
+        except ValueError as fault:
+            if size > sizes[-1]:
+                continue
+            if number < scene.explicit:
+                raise CaseError(f"body {number} cannot bend: it {fault}") from fault
+            return None
+    return Bent(outer, modes, lattice_of(modes, LATTICE * size))

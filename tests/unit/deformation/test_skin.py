@@ -3,41 +3,52 @@
 import numpy as np
 import pytest
 
+from dilatedem.deformation.elements import EDGES
 from dilatedem.deformation.lattice import Lattice, lattice_of
+from dilatedem.deformation.mesh import meshed
 from dilatedem.deformation.modes import Modes
 from dilatedem.deformation.skin import face_motion, skin_of, surface_stress
 from dilatedem.deformation.stress import in_plane, tension, von_mises
 from dilatedem.geometry.polyhedron import prism
 
 BOX = prism([[-2.0, -1.0], [2.0, -1.0], [2.0, 1.0], [-2.0, 1.0]], -0.25, 0.25)
+TALL = prism([[-2.0, -1.0], [2.0, -1.0], [2.0, 1.0], [-2.0, 1.0]], -0.35, 0.35)
 DOWN = int(np.argmin(BOX.normals[:, 2]))
 
 
-def fields(*functions) -> Lattice:
-    """Fields over the box that are quadratic at most, each a function of x, y, z to three components."""
-    nodes = np.stack(np.meshgrid(*(np.linspace(-e, e, 7) for e in (2.0, 1.0, 0.25)), indexing="ij"), axis=-1).reshape(-1, 3)
-    from scipy.spatial import Delaunay
-
-    tetrahedra = Delaunay(nodes + np.random.default_rng(1).normal(scale=1e-7, size=nodes.shape)).simplices
-    corner = nodes[tetrahedra]
-    pairs = ((0, 1), (1, 2), (0, 2), (0, 3), (1, 3), (2, 3))
-    ten = np.concatenate((corner, *(0.5 * (corner[:, [a]] + corner[:, [b]]) for a, b in pairs)), axis=1)
-    points, elements = ten.reshape(-1, 3), np.arange(10 * len(ten)).reshape(-1, 10)
-    shape = np.stack([np.stack(np.broadcast_arrays(*function(*points.T)), axis=-1) for function in functions])
+def modes_of(*functions, body=BOX) -> Modes:
+    """Fields over the elements of the box, each a function of x, y, z to three components."""
+    mesh = meshed(body, 0.5)
+    nodes, elements = quadratic(mesh)
+    shape = np.stack([np.stack(np.broadcast_arrays(*function(*nodes.T)), axis=-1) for function in functions])
     rest = np.zeros((1, 0, 6)), np.zeros((1, 3, 3)), np.zeros((1, 1, 3))
-    return lattice_of(Modes(points, elements, np.ones(len(functions)), shape, *rest), 0.25)
+    return Modes(nodes, elements, np.ones(len(functions)), shape, *rest)
+
+
+def fields(*functions) -> Lattice:
+    """The same, quadratic at most, over a lattice."""
+    return lattice_of(modes_of(*functions), 0.25)
+
+
+def quadratic(mesh) -> tuple[np.ndarray, np.ndarray]:
+    """Nodes and elements of quadratic tetrahedra, without scikit-fem."""
+    ends = np.sort(mesh.tetrahedra[:, np.array(EDGES)], axis=2)
+    edges, number = np.unique(ends.reshape(-1, 2), axis=0, return_inverse=True)
+    nodes = np.concatenate((mesh.points, mesh.points[edges].mean(axis=1)))
+    return nodes, np.concatenate((mesh.tetrahedra, len(mesh.points) + number.reshape(-1, 6)), axis=1)
 
 
 def test_integrals_over_a_face_are_those_of_its_fields():
-    skin = skin_of(BOX, fields(lambda x, y, z: (0.0 * x, 0.0, x), lambda x, y, z: (0.0 * x, y, 1.0)))
-    np.testing.assert_allclose(skin.area, np.abs(BOX.normals) @ [1.0, 2.0, 8.0], atol=1e-12)
+    skin = skin_of(TALL, modes_of(lambda x, y, z: (0.0 * x, 0.0, x), lambda x, y, z: (0.0 * x, y, 1.0), body=TALL))
+    np.testing.assert_allclose(skin.area, np.abs(TALL.normals) @ [1.4, 2.8, 8.0], atol=1e-12)
     np.testing.assert_allclose(skin.first[DOWN], [[0.0, 0.0, 0.0], [0.0, 0.0, 8.0]], atol=1e-6)
-    # xx, yy, zz, 2 yz, 2 zx, 2 xy of the symmetric part of x phi: int x x = 2 (4^3/12), int y y = 4 (2^3/12), int z = -0.25 x 8
+    # xx, yy, zz, 2 yz, 2 zx, 2 xy of the symmetric part of x phi: int x x = 2 (4^3/12), int y y = 4 (2^3/12), int z = -0.35 x 8
     np.testing.assert_allclose(skin.moment[DOWN, 0], [0, 0, 0, 0, 4**3 / 6, 0], atol=1e-5)
-    np.testing.assert_allclose(skin.moment[DOWN, 1], [0, 4 * 8 / 12, -2.0, 0, 0, 0], atol=1e-5)
+    np.testing.assert_allclose(skin.moment[DOWN, 1], [0, 4 * 8 / 12, -2.8, 0, 0, 0], atol=1e-5)
     np.testing.assert_allclose(skin.second[DOWN, 0, 0], [0, 0, 4**3 / 6, 0, 0, 0], atol=1e-5)
     np.testing.assert_allclose(skin.second[DOWN, 1, 1], [0, 4 * 8 / 12, 8.0, 0, 0, 0], atol=1e-5)
     np.testing.assert_allclose(skin.second[DOWN, 0, 1], skin.second[DOWN, 1, 0], atol=1e-12)
+    assert len(skin_of(BOX, modes_of(lambda x, y, z: (0.0 * x, 0.0, x))).area) == 2, "sides of a plate are left out"
     for face in range(6):
         rows = slice(skin.start[face], skin.start[face + 1])
         assert np.abs((skin.point[rows] - skin.centre[face]) @ skin.normal[face]).max() < 1e-12
