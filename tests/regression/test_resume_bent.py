@@ -23,7 +23,7 @@ def case_of() -> Case:
         "structure": [{"kind": "pile", "name": "pile", "center": [1.2, 0.1], "radius": 0.4}],
         "body": [
             {"outline": SQUARE, "position": [0.05, 0.0, 0.0], "velocity": [1.0, 0.0, 0.0]},
-            {"outline": SQUARE, "position": [-1.4, 0.1, 0.02], "velocity": [1.5, 0.0, 0.0], "rotation": [0.05, 0.0, 0.1]},
+            {"outline": SQUARE, "position": [-1.45, 0.1, 0.02], "velocity": [1.5, 0.0, 0.0], "rotation": [0.05, 0.0, 0.1]},
             {"outline": SQUARE, "position": [-3.0, 0.0, 0.0], "velocity": [2.0, 0.0, 0.0], "modes": 0},
         ],
         "time": {"duration": 0.2, "step": 1e-4},

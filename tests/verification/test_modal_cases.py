@@ -97,7 +97,8 @@ def shortened(simulation: Simulation, number: int) -> float:
     solids, out = simulation.model.solids, simulation.state.bodies.coordinate[number]
     faces = np.arange(solids.skin_face[number], solids.skin_face[number + 1])
     up, down = (faces[(side * solids.skin_normal[faces, 2]).argmax()] for side in (1.0, -1.0))
-    return float((solids.skin_first[down, :, 2] / solids.skin_area[down] - solids.skin_first[up, :, 2] / solids.skin_area[up]) @ out)
+    rise = solids.skin_first[:, :, 2] / solids.skin_area[:, None]
+    return float((rise[down] - rise[up]) @ out)
 
 
 def of_columns() -> list[Comparison]:

@@ -42,6 +42,7 @@ FORMS = {
     "test_forces_by_mode": "Force by contact mode at 0.1 mm overlap",
     "test_free_modes": "Free vibration of a beam and of a plate",
     "test_bending": "Beams and floes that bend at rest",
+    "test_modal_cases": "Bodies that bend, case by case",
     "test_consistent_bounds": "What is asked of `consistent`",
 }
 
