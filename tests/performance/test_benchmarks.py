@@ -45,9 +45,9 @@ def test_of_all_rounds_the_best_counts_and_the_median_of_every_repeat(monkeypatc
 
 
 def test_a_generated_field_is_packed_face_on_face_and_rocking_has_one_size():
-    simulation = packed_field(60, "liu2015")
-    assert simulation.model.floating == 60
-    assert simulation.contacts > 1.5 * 60
+    simulation = packed_field(200, "liu2015")
+    assert simulation.model.floating == 200
+    assert simulation.contacts > 1.5 * 200
     assert {size for scene, _, size, _ in Plan(sizes=(200, 2000)).configurations() if scene == "rocking"} == {200}
 
 
