@@ -34,6 +34,8 @@ def describe_run(run: RunFolder) -> str:
     checked = (summary.get("error_check") or {}).get("message")
     if checked:
         lines.append(f"  {'step error':<12}{checked}")
+    if bent := bending_words(summary):
+        lines.append(f"  {'bending':<12}{bent}")
     words = energy_words(summary.get("energy") or {})
     if words:
         lines.append(f"  {'energy':<12}{words}")
@@ -93,6 +95,19 @@ def _moment_words(statistics: dict) -> str:
     """The highest overturning moment; nothing of a run that did not record it."""
     moment = statistics.get("moment")
     return f"overturning moment up to {number(moment['peak_Nm'] / 1e3, 3)} kN m, " if moment else ""
+
+
+def bending_words(summary: dict) -> str:
+    """What pulled floes that bend most, and how many would have broken; nothing of a run that had none."""
+    found = summary.get("flexure") or {}
+    if found.get("largest_Pa") is None or not found.get("floes"):
+        return ""
+    strength = f"flexural strength of {number(found['strength_Pa'] / 1e6, 3)} MPa"
+    above = f"{found['above_strength']} of {found['floes']} floes passed the {strength}"
+    if found.get("first_above_s") is not None:
+        above += f", the first at {number(found['first_above_s'], 5)} s"
+    most = f"floe {found['largest_body']} was pulled most, by {number(found['largest_Pa'] / 1e6, 3)} MPa"
+    return f"{most} at {number(found['largest_time_s'], 5)} s; {above}"
 
 
 def energy_words(energy: dict) -> str:

@@ -126,6 +126,10 @@ _SUMMARY = _table(
     hits=_table(
         threshold_N=_figure, gap_s=_figure, meaning=_text, structures=_table(rest=_table(rest=_figure)),
     ),
+    flexure=_table(
+        strength_Pa=_figure, floes=_whole, above_strength=_whole, first_above_s=_figure, largest_Pa=_figure, largest_time_s=_figure,
+        largest_body=_maybe(_whole), meaning=_text,
+    ),
     until=_table(met=_list(_text), message=_text),
     inflow=_table(
         entered=_whole, left=_whole, omitted=_whole, ice_m=_figure, waited_s=_figure, waited_first_s=_figure

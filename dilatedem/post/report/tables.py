@@ -195,7 +195,22 @@ def fact_rows(run: RunFolder) -> Rows:
         rows += [[label, show(inflow[key]), unit] for label, key, unit in told if inflow.get(key) is not None]
     elif run.ice is not None and len(run.ice.mass):
         rows.append(["mass of all floes", number(float(run.ice.mass.sum()) / 1e3), "t"])
-    return rows
+    return rows + bending_rows(summary.get("flexure") or {})
+
+
+def bending_rows(flexure: dict[str, Any]) -> Rows:
+    """What pulled floes that bend most, and how many would have broken; none of a run without such."""
+    if not flexure.get("floes") or flexure.get("largest_Pa") is None:
+        return []
+    when = f"MPa, of floe {flexure['largest_body']} at {number(flexure['largest_time_s'], 5)} s"
+    first = flexure.get("first_above_s")
+    return [
+        ["largest tension in floes that bend", number(flexure["largest_Pa"] / 1e6, 3), when],
+        [
+            f"floes above the flexural strength of {number(flexure['strength_Pa'] / 1e6, 3)} MPa, which would have broken",
+            f"{flexure['above_strength']} of {flexure['floes']}", f"the first at {number(first, 5)} s" if first is not None else "",
+        ],
+    ]  # fmt: skip
 
 
 def version_rows(summary: dict[str, Any]) -> Rows:
