@@ -45,9 +45,9 @@ class Flexure(Observer):
 
     def summary(self) -> dict:
         simulation = self.simulation
-        bodies, bend = simulation.state.bodies, np.flatnonzero(getattr(simulation.model.solids, "mode_count", []))
-        if not len(bend):
+        if not simulation.case.bends:
             return {}
+        bodies, bend = simulation.state.bodies, np.flatnonzero(simulation.model.solids.mode_count)
         most = int(bend[bodies.peak_tension[bend].argmax()])
         failed = np.flatnonzero(bodies.failed_at < np.inf)
         return {

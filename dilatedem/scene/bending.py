@@ -37,6 +37,8 @@ def bent_solids(case: Case, scene: Scene, solids: Solids, shapes: Shapes) -> Sol
     """The same bodies with their modes; `solids` itself where none has any. Raises CaseError for one that has none to have."""
     counts = _counts(case, scene, solids)
     if not counts.any():
+        if case.bends:
+            raise CaseError("deformation.modes: no body can bend: each is held, or has modes = 0 of its own")
         return solids
     most = int(counts.max())
     bent = bent_bodies(case, scene, counts)
