@@ -14,8 +14,8 @@ from dilatedem.files.atomic import write_bytes
 from dilatedem.files.faults import told_as
 from dilatedem.files.whose import refuse_foreign, refuse_links
 from dilatedem.output.folder import holds_run
+from dilatedem.output.snapshots.vtu import write_shapes
 from dilatedem.output.summary import write_json
-from dilatedem.output.vtu import write_shapes
 from dilatedem.scene.facts import asked_areas, field_facts
 from dilatedem.scene.place import Scene, compose
 

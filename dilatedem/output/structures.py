@@ -1,20 +1,18 @@
-"""structures.csv, and structures.pvd with its files: where structures that move are, how fast, and what their bases bear."""
+"""structures.csv: where structures that move are, how fast, and what their bases bear."""
 
 import numpy as np
 
-from dilatedem.numerics.frames import quaternion_from_rotation_vector
 from dilatedem.numerics.plain import norm
 from dilatedem.output import folder
-from dilatedem.output.observer import Observer, TableObserver
+from dilatedem.output.observer import TableObserver
 from dilatedem.output.tables import BEAM_COLUMNS, STRUCTURES_COLUMNS, Table
-from dilatedem.output.vtu import wrapped, write_pvd, write_shapes
 from dilatedem.state.supports import Carried, ModalSupports, beam_loads, reaction
 
 #: what summary.json tells of the motion of a structure, each with its time; of one on a beam with the loads of its foot
 MOST_OF_BEAMS = ("base_force_max_N", "base_force_max_time_s", "base_moment_max_Nm", "base_moment_max_time_s")
 MOST = ("displacement_max_m", "displacement_max_time_s", "reaction_max_N", "reaction_max_time_s", *MOST_OF_BEAMS)
-#: bytes of a row, and of a structure in a snapshot, about
-ROW, SHAPE = 110.0, 4e3
+#: bytes of a row, about
+ROW = 110.0
 
 
 def moving(case) -> int:
@@ -102,53 +100,3 @@ class StructureMotion(TableObserver):
     def close(self) -> None:
         if self._names:
             super().close()
-
-
-class StructureSnapshots(Observer):
-    """Structures that move at each snapshot of the ice, for ParaView; those that are held stand in structures.vtu."""
-
-    name = "structure_snapshots"
-
-    @classmethod
-    def interval(cls, case) -> float:
-        return case.output.snapshot_interval if moving(case) else 0.0
-
-    @classmethod
-    def size(cls, case, floes: int, structures: int) -> float:
-        interval = case.output.snapshot_interval
-        return SHAPE * moving(case) * (case.time.duration / interval + 1) if interval else 0.0
-
-    def open(self, kept: dict | None, since: int) -> None:
-        self.written: list[list] = kept["written"] if kept else []  # time [s], file
-        self._listed = 0
-        simulation, extent = self.simulation, float(norm(self.simulation.case.domain.size))
-        structures, supports = simulation.scene.structures, simulation.model.supports
-        which = np.flatnonzero(supports.kind != Carried.HELD)
-        drawings = [structures[s].about.drawing(extent) for s in which]
-        self._owner = np.repeat(which, [len(pieces) for pieces in drawings])
-        places = supports.place[self._owner]
-        self._pieces = [piece.translated(-place) for piece, place in zip(sum(drawings, []), places, strict=True)]
-
-    def note(self, step: int) -> None:
-        excursions, which = self.simulation.state.excursions, self._owner
-        name = folder.structures_name(self.schedule.events_until(step) - 1)
-        rows = (getattr(excursions, kept)[which] for kept in ("center", "displacement", "velocity"))
-        self.background.put(self._write, name, *rows)
-        self.written.append([self.simulation.time_s, name])
-
-    def _write(self, name: str, center: np.ndarray, displacement: np.ndarray, velocity: np.ndarray) -> None:
-        """In the background."""
-        domain = self.simulation.case.domain
-        periodic = (domain.x_boundary == "periodic", domain.y_boundary == "periodic")
-        yaw = np.reshape([quaternion_from_rotation_vector([0.0, 0.0, angle]) for angle in displacement[:, 2]], (-1, 4))
-        flat = np.array([1.0, 1.0, 0.0])
-        cell_data = {"structure": self._owner, "displacement": displacement * flat, "velocity": velocity * flat}
-        write_shapes(self.out / name, self._pieces, wrapped(center, domain.size, periodic), yaw, cell_data)
-
-    def refresh(self) -> None:
-        if self._listed < len(self.written):
-            self.background.put(write_pvd, self.out / folder.STRUCTURE_COLLECTION, list(self.written))
-            self._listed = len(self.written)
-
-    def kept(self) -> dict:
-        return {"written": list(self.written)}

@@ -38,7 +38,7 @@ def read_snapshot(path: Path, time: float) -> Snapshot:
 
 def _read(mesh, time: float) -> Snapshot:
     """mesh: as meshio reads it. Raises whatever NumPy and meshio do where something is not what it should be."""
-    # Blocks and their data agree because a run writes its cells by their number of corners; see output.vtu.
+    # Blocks and their data agree because a run writes its cells by their number of corners; see output.snapshots.vtu.
     cells = [np.concatenate(faces) for block in mesh.cells for faces in block.data]
     count = len(cells)
     owner = np.repeat(np.arange(count), [len(corners) for corners in cells])

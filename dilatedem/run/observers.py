@@ -12,18 +12,20 @@ from dilatedem.errors import Interrupted
 from dilatedem.files.atomic import write_text
 from dilatedem.output import checkpoint, folder
 from dilatedem.output.background import Background
-from dilatedem.output.bent import BentSnapshots, Flexure
 from dilatedem.output.energies import Energies
+from dilatedem.output.flexure import Flexure
 from dilatedem.output.forces import Forces
 from dilatedem.output.hits import Hits
 from dilatedem.output.motion import TrackedBodies
 from dilatedem.output.observer import Observer
 from dilatedem.output.origin import now, origin
 from dilatedem.output.record import Record
-from dilatedem.output.snapshots import Snapshots
-from dilatedem.output.structures import StructureMotion, StructureSnapshots
+from dilatedem.output.snapshots.bent import BentSnapshots
+from dilatedem.output.snapshots.ice import Snapshots
+from dilatedem.output.snapshots.structures import StructureSnapshots
+from dilatedem.output.snapshots.vtu import write_structures
+from dilatedem.output.structures import StructureMotion
 from dilatedem.output.summary import versions, write_summary
-from dilatedem.output.vtu import write_structures
 from dilatedem.run import error_check
 from dilatedem.run.ending import Ending
 from dilatedem.run.error_check import LoadWatch

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from dilatedem.geometry.polyhedron import prism
-from dilatedem.output.vtu import CELL_DATA, SnapshotWriter
+from dilatedem.output.snapshots.vtu import CELL_DATA, SnapshotWriter
 from dilatedem.results.snapshots import plan_outlines, read_snapshot
 
 

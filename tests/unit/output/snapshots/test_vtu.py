@@ -10,7 +10,7 @@ from dilatedem.geometry.outer import outer_polyhedron
 from dilatedem.geometry.polyhedron import convex_hull, prism, volume
 from dilatedem.numerics.frames import matrix_from_quaternion
 from dilatedem.output.folder import snapshot_name
-from dilatedem.output.vtu import (
+from dilatedem.output.snapshots.vtu import (
     SnapshotWriter,
     wrapped,
     write_pvd,
