@@ -5,7 +5,8 @@ A polygon is rows 0..n-1 of a workspace (m, 3): plane coordinates u, v and a hei
 
 from math import sqrt
 
-from dilatedem.jit import device
+from dilatedem.jit import device, item
+from dilatedem.numerics.vector import add, dot, load
 
 
 @device
@@ -36,6 +37,34 @@ def clip_polygon(source, count, target, a, b, c, d):
                 target[kept, m] = source[i, m] + t * (source[j, m] - source[i, m])
             kept += 1
     return kept
+
+
+@item
+def clip_by_face(vertex, shapes, face, origin, t1, t2, turn, rim, source, count, target):
+    """Keep the part of a polygon within the sides of a face, moved out by `rim` [m]; returns its corner count, and whether it is in
+    `target`.
+
+    vertex (v, 3): turned to world directions; origin: of the face's body, t1, t2: of the plane; turn: 1 for a face seen
+    counter-clockwise, -1 for clockwise.
+    """
+    first, last = shapes.loop_start[face], shapes.loop_start[face + 1]
+    swapped = False
+    q = add(origin, load(vertex, shapes.loop[first]))
+    qu, qv = dot(q, t1), dot(q, t2)
+    for i in range(first, last):
+        pu, pv = qu, qv
+        q = add(origin, load(vertex, shapes.loop[i + 1 if i + 1 < last else first]))
+        qu, qv = dot(q, t1), dot(q, t2)
+        eu, ev = turn * (qu - pu), turn * (qv - pv)
+        limit = ev * pu - eu * pv + rim * (abs(eu) + abs(ev))
+        if not reaches_past(source, count, ev, -eu, limit):
+            continue
+        count = clip_polygon(source, count, target, ev, -eu, 0.0, limit)
+        source, target = target, source
+        swapped = not swapped
+        if count == 0:
+            break
+    return count, swapped
 
 
 @device

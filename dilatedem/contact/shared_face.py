@@ -1,6 +1,6 @@
 """The part that two faces have in common, seen along the normal of their contact: where bodies that bend are carried."""
 
-from dilatedem.contact.clip import clip_polygon, polygon_centroid
+from dilatedem.contact.clip import clip_by_face, polygon_centroid
 from dilatedem.jit import item
 from dilatedem.numerics.rotation import rotation_matrix, to_body
 from dilatedem.numerics.vector import add, along, dot, load, scale, tangents
@@ -50,19 +50,9 @@ def shared_part(face_a, face_b, offset, normal, vertex, shapes, scratch):
     whole_a, count = _area(vertex, shapes, face_a, t1, t2, source)
     swapped = False
     if face_b >= 0:
-        first, last = shapes.loop_start[face_b], shapes.loop_start[face_b + 1]
-        for i in range(first, last):
-            p = add(offset, load(vertex, shapes.loop[i]))
-            q = add(offset, load(vertex, shapes.loop[i + 1 if i + 1 < last else first]))
-            pu, pv = dot(p, t1), dot(p, t2)
-            eu, ev = pu - dot(q, t1), pv - dot(q, t2)  # seen along the normal b's face runs clockwise
-            if swapped:
-                count = clip_polygon(target, count, source, ev, -eu, 0.0, ev * pu - eu * pv)
-            else:
-                count = clip_polygon(source, count, target, ev, -eu, 0.0, ev * pu - eu * pv)
-            swapped = not swapped
-            if count == 0:
-                return False, NONE, 0.0, 0.0
+        count, swapped = clip_by_face(vertex, shapes, face_b, offset, t1, t2, -1.0, 0.0, source, count, target)
+        if count == 0:
+            return False, NONE, 0.0, 0.0
     area, u, v, _, _ = polygon_centroid(target, count) if swapped else polygon_centroid(source, count)
     if area <= 0.0 or whole_a <= 0.0:
         return False, NONE, 0.0, 0.0

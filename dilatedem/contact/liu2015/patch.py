@@ -7,7 +7,7 @@ half-width of the Hertz contact of its own rounded rim is none: a sliver of a fa
 
 from math import sqrt
 
-from dilatedem.contact.clip import clip_interval, clip_polygon, polygon_centroid, reaches_past
+from dilatedem.contact.clip import clip_by_face, clip_interval, clip_polygon, polygon_centroid
 from dilatedem.contact.support import EDGE, FACE, PARALLEL, VERTEX, corner_feature, support_feature
 from dilatedem.jit import device, item
 from dilatedem.numerics.vector import add, along, cross, dot, load, norm, scale, sub, tangents
@@ -36,30 +36,6 @@ def point_mode(kind_a, kind_b):
 
 
 @item
-def _clip_by_face(vertex, shapes, face, origin, t1, t2, turn, rim, source, count, target):
-    """Clip a polygon by the sides of a face, moved out by `rim` [m]; turn: 1 for a face seen counter-clockwise, -1 for clockwise.
-    Returns count, side."""
-    first, last = shapes.loop_start[face], shapes.loop_start[face + 1]
-    swapped = False
-    q = add(origin, load(vertex, shapes.loop[first]))
-    qu, qv = dot(q, t1), dot(q, t2)
-    for i in range(first, last):
-        pu, pv = qu, qv
-        q = add(origin, load(vertex, shapes.loop[i + 1 if i + 1 < last else first]))
-        qu, qv = dot(q, t1), dot(q, t2)
-        eu, ev = turn * (qu - pu), turn * (qv - pv)
-        limit = ev * pu - eu * pv + rim * (abs(eu) + abs(ev))
-        if not reaches_past(source, count, ev, -eu, limit):
-            continue
-        count = clip_polygon(source, count, target, ev, -eu, 0.0, limit)
-        source, target = target, source
-        swapped = not swapped
-        if count == 0:
-            break
-    return count, swapped
-
-
-@item
 def face_plane(vertex, face_normal, shapes, face, origin, normal, t1, t2, radius):
     """Height along the normal of a face's dilated plane as h0 + hu u + hv v; radius < 0 for the face of b."""
     m = load(face_normal, face)
@@ -84,7 +60,7 @@ def _face_on_face(vertex, shapes, face_a, face_b, offset, normal, t1, t2, ra, pl
         source[i, 0], source[i, 1], source[i, 2] = dot(p, t1), dot(p, t2), dot(p, normal) + ra
     swapped = False
     if face_b >= 0:
-        count, swapped = _clip_by_face(vertex, shapes, face_b, offset, t1, t2, -1.0, rim, source, count, target)
+        count, swapped = clip_by_face(vertex, shapes, face_b, offset, t1, t2, -1.0, rim, source, count, target)
     if swapped:
         source, target = target, source
     h0, hu, hv = plane
@@ -243,7 +219,7 @@ def contact_patch(
 
 @item
 def is_inside(vertex, shapes, point, face, origin, t1, t2, turn, rim):
-    """Whether a point projects into a face (turn and rim as in `_clip_by_face`)."""
+    """Whether a point projects into a face (turn and rim as in `clip_by_face`)."""
     first, last = shapes.loop_start[face], shapes.loop_start[face + 1]
     for i in range(first, last):
         p = add(origin, load(vertex, shapes.loop[i]))
