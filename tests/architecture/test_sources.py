@@ -2,6 +2,7 @@
 
 import ast
 import re
+from collections import Counter
 from pathlib import Path
 
 import pytest
@@ -35,6 +36,12 @@ def test_a_module_can_be_read_in_one_go(path):
     text = path.read_text(encoding="utf-8")
     assert len(text.splitlines()) <= LONGEST_MODULE
     assert not re.fullmatch(r"utils?|helpers?|managers?|misc|common", path.stem)
+
+
+def test_no_two_test_modules_have_one_name():
+    # pytest imports them by name alone: of two, it would collect only the first
+    names = Counter(path.name for path in (ROOT / "tests").rglob("test_*.py"))
+    assert not [name for name, times in names.items() if times > 1]
 
 
 #: rooms whose numbers a run follows from: they must come out alike on every processor (see dilatedem/numerics/plain.py)
