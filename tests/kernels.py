@@ -6,7 +6,8 @@ import numba
 import numpy as np
 
 from dilatedem.contact.collide import separation
-from dilatedem.contact.consistent.cap import CORNERS, corner_of, facing, lay_sides, nearest, overhang
+from dilatedem.contact.consistent.bounds import BOUNDS, bound_edges, edge_counts, line_bound
+from dilatedem.contact.consistent.cap import CORNERS, corner_of, facing, lay_sides, nearest, overhang, side_of
 from dilatedem.contact.consistent.cone import energy_of_pose
 from dilatedem.contact.consistent.face import press_face
 from dilatedem.contact.consistent.four import press_four
@@ -133,6 +134,23 @@ def edge_on_cap(p, e, length, radius, scratch, count, normal, other, modulus, sh
     """`press_edge` on the cap of b."""
     lay_sides(scratch, 1, count)
     return press_edge(p, e, length, radius, scratch, 1, count, normal, other, radius + other, modulus, sharp)
+
+
+@kernel
+def bound_on_cap(scratch, length, radius, count, normal, other, overlap, modulus, sharp):
+    """Of the edge that is the cap of a, on the cap of b: `press_edge`'s energy, `line_bound` by `bound_edges`, and whether
+    `edge_counts` says that it can have that energy."""
+    lay_sides(scratch, 0, 2)
+    lay_sides(scratch, 1, count)
+    reach = radius + other
+    bound_edges(0, scratch, 2, count, normal, reach, overlap)
+    energy = press_edge(
+        corner_of(scratch, 0, 0), side_of(scratch, 0, 0), length, radius, scratch, 1, count, normal, other, reach, modulus, sharp
+    )[0]
+    blunt = radius * other / reach if count == 1 or count == 2 else radius
+    second, pressed, deepest = scratch[BOUNDS, 0, 0], scratch[BOUNDS, 0, 1], scratch[BOUNDS, 0, 2]
+    most = line_bound(modulus, second, pressed, deepest, 1.0 / blunt) if second > 0.0 else 0.0
+    return energy, most, edge_counts(0, scratch, 0, blunt, modulus, energy)
 
 
 @kernel

@@ -1,8 +1,8 @@
 """A face of four corners on another of four, as the sides of floes are: what `face.press_face` gives, without a loop.
 
-Nearly all contacts of packed floes are such, and their patch has four corners as well. Loops over so few corners spend more time on
-counting than on sums; here corners are tuples, which live in registers. Where a patch has another number of corners, `face` has to
-do.
+Nearly all contacts of floes are such, and their patch has four corners as well, or three where one leans. Loops over so few corners
+spend more time on counting than on sums; here corners are tuples, which live in registers. Where a patch has more corners, `face`
+has to do.
 """
 
 from math import sqrt
@@ -22,8 +22,10 @@ from dilatedem.contact.consistent.rim import FAR, any_rim, bound_rim
 from dilatedem.jit import device, item
 from dilatedem.numerics.vector import add, dot, load, sub, tangents
 
-#: corners
-FOUR = 4
+#: corners; nothing presses; as many corners as only `face` can tell
+FOUR, THREE, NOTHING, UNTOLD = 4, 3, 0, -1
+#: fence of a side where face a ends
+END = (0.0, 0.0)
 
 
 @device
@@ -55,12 +57,52 @@ def _between(p, s, q, z):
 
 
 @device
-def _cut(patch, fence, s, way):
-    """The part of a patch where a linear function, s at its corners, is negative; whether that has four corners again.
+def _cut_to_three(patch, fence, s, way):
+    """`_cut` of four corners where it does not leave four."""
+    beyond = 0
+    for value in s:
+        beyond += 1 if value > 0.0 else 0
+    if beyond < THREE or s[0] == 0.0 or s[1] == 0.0 or s[2] == 0.0 or s[3] == 0.0:
+        return UNTOLD, patch, fence
+    if beyond == FOUR:
+        return NOTHING, patch, fence
+    # turned such that the last corner stays
+    for _ in range(3):
+        if s[3] > 0.0:
+            patch, fence, s = _turned(patch), _turned(fence), _turned(s)
+    first, last = _between(patch[3], s[3], patch[2], s[2]), _between(patch[3], s[3], patch[0], s[0])
+    return THREE, (patch[3], last, first, first), (fence[3], way, END, fence[2])
 
-    fence: of each side, from a corner to the next, the unit vector (a, b) that leads out over the border of b, or (0, 0) where a
-    ends; way: the same of the cut.
+
+@device
+def _cut_three(patch, fence, s, way):
+    """`_cut` of three corners."""
+    (p, q, r, _), (pq, qr, _, rp), (s0, s1, s2, _) = patch, fence, s
+    if s0 == 0.0 or s1 == 0.0 or s2 == 0.0:
+        return UNTOLD, patch, fence
+    beyond = (1 if s0 > 0.0 else 0) + (1 if s1 > 0.0 else 0) + (1 if s2 > 0.0 else 0)
+    if beyond == THREE:
+        return NOTHING, patch, fence
+    # turned such that the first corner is the one that goes, or that stays, alone
+    for _ in range(2):
+        if (s0 > 0.0) != (beyond == 1):
+            p, q, r, pq, qr, rp, s0, s1, s2 = q, r, p, qr, rp, pq, s1, s2, s0
+    first, last = _between(p, s0, q, s1), _between(r, s2, p, s0)
+    if beyond == 1:
+        return FOUR, (first, q, r, last), (pq, qr, rp, way)
+    return THREE, (p, first, last, last), (pq, way, END, rp)
+
+
+@device
+def _cut(corners, patch, fence, s, way):
+    """The part of a patch where a linear function, s at its corners, is negative: its corners (FOUR, THREE, NOTHING is left, or
+    UNTOLD where there would be more), and that part with its fences.
+
+    Three corners are four with the third twice. fence: of each side, from a corner to the next, the unit vector (a, b) that leads
+    out over the border of b, or END where a ends; way: the same of the cut.
     """
+    if corners == THREE:
+        return _cut_three(patch, fence, s, way)
     # turned such that the first two corners go
     if s[2] > 0.0:
         if s[3] > 0.0:
@@ -69,10 +111,10 @@ def _cut(patch, fence, s, way):
             patch, fence, s = _turned(patch), _turned(fence), _turned(s)
     elif s[3] > 0.0:
         patch, fence, s = _turned(_turned(_turned(patch))), _turned(_turned(_turned(fence))), _turned(_turned(_turned(s)))
-    if not (s[0] > 0.0 and s[1] > 0.0 and s[2] < 0.0 and s[3] < 0.0):
-        return False, patch, fence
-    first, second = _between(patch[3], s[3], patch[0], s[0]), _between(patch[2], s[2], patch[1], s[1])
-    return True, (first, second, patch[2], patch[3]), (way, fence[1], fence[2], fence[3])
+    if s[0] > 0.0 and s[1] > 0.0 and s[2] < 0.0 and s[3] < 0.0:
+        first, second = _between(patch[3], s[3], patch[0], s[0]), _between(patch[2], s[2], patch[1], s[1])
+        return FOUR, (first, second, patch[2], patch[3]), (way, fence[1], fence[2], fence[3])
+    return _cut_to_three(patch, fence, s, way)
 
 
 @device
@@ -105,37 +147,32 @@ def _sharp(side, following):
 
 
 @device
-def _within(four, patch, fence, side):
-    """`_cut` by a side of the border. four: whether the patch has four corners so far."""
+def _within(corners, patch, fence, side):
+    """`_cut` by a side of the border."""
     eu, ev, limit, length = side
     p, q, r, s = patch
     s0, s1 = ev * p[0] - eu * p[1] - limit, ev * q[0] - eu * q[1] - limit
     s2, s3 = ev * r[0] - eu * r[1] - limit, ev * s[0] - eu * s[1] - limit
-    if max(max(s0, s1), max(s2, s3)) > 0.0:
+    if corners > NOTHING and max(max(s0, s1), max(s2, s3)) > 0.0:
         unit = 1.0 / length
-        return _cut(patch, fence, (s0, s1, s2, s3), (ev * unit, -eu * unit))
-    return four, patch, fence
+        return _cut(corners, patch, fence, (s0, s1, s2, s3), (ev * unit, -eu * unit))
+    return corners, patch, fence
 
 
 @device
 def _patch(patch, border, margin):
-    """What of face a, `patch`, lies over face b, `border`, and presses; whether it has four corners; fences as of `_cut`."""
-    end, (p, q, r, s) = (0.0, 0.0), border
-    fence = (end, end, end, end)
+    """What of face a, `patch`, presses and lies over face b, `border`: its corners, as `_cut` tells, and fences."""
+    fence, (p, q, r, s) = (END, END, END, END), border
     one, two, three, last = _side(p, q, margin), _side(q, r, margin), _side(r, s, margin), _side(s, p, margin)
     if _sharp(one, two) or _sharp(two, three) or _sharp(three, last) or _sharp(last, one):
-        return False, patch, fence
-    four, patch, fence = _within(True, patch, fence, one)
-    if four:
-        four, patch, fence = _within(four, patch, fence, two)
-    if four:
-        four, patch, fence = _within(four, patch, fence, three)
-    if four:
-        four, patch, fence = _within(four, patch, fence, last)
-    s0, s1, s2, s3 = -patch[0][2], -patch[1][2], -patch[2][2], -patch[3][2]
-    if four and max(max(s0, s1), max(s2, s3)) > 0.0:
-        return _cut(patch, fence, (s0, s1, s2, s3), end)
-    return four, patch, fence
+        return UNTOLD, patch, fence
+    corners, s0, s1, s2, s3 = FOUR, -patch[0][2], -patch[1][2], -patch[2][2], -patch[3][2]
+    if max(max(s0, s1), max(s2, s3)) > 0.0:
+        corners, patch, fence = _cut(corners, patch, fence, (s0, s1, s2, s3), END)
+    corners, patch, fence = _within(corners, patch, fence, one)
+    corners, patch, fence = _within(corners, patch, fence, two)
+    corners, patch, fence = _within(corners, patch, fence, three)
+    return _within(corners, patch, fence, last)
 
 
 @device
@@ -148,8 +185,8 @@ def _moments(patch):
 
 
 @device
-def _bound_rims(patch, beyond, tilt, overlap):
-    """`rim.any_rim` of four corners."""
+def _bound_rims(corners, patch, beyond, tilt, overlap):
+    """`rim.any_rim` of three or four corners."""
     p, q, r, s = patch
     lift = tilt * beyond
     d, e, f, g = min(p[2] + lift, overlap), min(q[2] + lift, overlap), min(r[2] + lift, overlap), min(s[2] + lift, overlap)
@@ -157,6 +194,8 @@ def _bound_rims(patch, beyond, tilt, overlap):
     gu, gv, hu, hv = s[0] - r[0], s[1] - r[1], p[0] - s[0], p[1] - s[1]
     bounds, square = bound_rim((0.0, 0.0, 0.0, False), hu, hv, hu * hu + hv * hv, eu, ev, d, e)
     bounds, square = bound_rim(bounds, eu, ev, square, fu, fv, e, f)
+    if corners == THREE:
+        return any_rim(bound_rim(bounds, fu, fv, square, hu, hv, f, d)[0], beyond, tilt, overlap)
     bounds, square = bound_rim(bounds, fu, fv, square, gu, gv, f, g)
     bounds, square = bound_rim(bounds, gu, gv, square, hu, hv, g, d)
     return any_rim(bounds, beyond, tilt, overlap)
@@ -183,14 +222,14 @@ def press_four(corners_a, normal_a, corners_b, normal_b, offset, reach, overlap,
     t1, t2 = tangents(normal_b)
     origin = add(offset, corners_b[0])
     (p, q, r, s), (k, l, m, n) = corners_a, corners_b
-    four, patch, fence = _patch(
+    corners, patch, fence = _patch(
         # seen from b's side a's loop runs clockwise
         (_flat(s, origin, t1, t2, normal_b, reach), _flat(r, origin, t1, t2, normal_b, reach),
          _flat(q, origin, t1, t2, normal_b, reach), _flat(p, origin, t1, t2, normal_b, reach)),
         ((0.0, 0.0), _plan(l, k, t1, t2), _plan(m, k, t1, t2), _plan(n, k, t1, t2)), MARGIN * reach,
     )  # fmt: skip
-    if not four:
-        return nothing
+    if corners <= NOTHING:
+        return corners == NOTHING, 0.0, none, none, 0.0, (none, none), (0, 0, 0.0, FAR, FAR)
     gu, gv = slopes(normal_a, normal_b, t1, t2)
     u0, v0, d0 = patch[0]
     energy, (u, v, d), pressure, (total, total_u, total_v), area, spread = punch(_moments(patch), d0, gu, gv, modulus)
@@ -205,7 +244,7 @@ def press_four(corners_a, normal_a, corners_b, normal_b, offset, reach, overlap,
     wrench = _border(wrench, patch[3], patch[0], fence[3], reach, plane, pressure)
     force, moment, spread = in_space(wrench, spread, origin, t1, t2, normal_b)
     tilt = sqrt(gu * gu + gv * gv)
-    second, longest = _bound_rims(patch, sqrt(2.0 * reach * overlap), tilt, overlap)
+    second, longest = _bound_rims(corners, patch, sqrt(2.0 * reach * overlap), tilt, overlap)
     for m in range(3):
         scratch[0, 0, m], scratch[0, 1, m], scratch[0, 2, m], scratch[0, 3, m] = patch[0][m], patch[1][m], patch[2][m], patch[3][m]
-    return True, energy, force, moment, area, spread, (FOUR, 0, tilt, second, longest)
+    return True, energy, force, moment, area, spread, (corners, 0, tilt, second, longest)

@@ -4,12 +4,13 @@ W is the 16-norm of the energies of all features that press: W^16 = sum W_i^16. 
 the largest where two are equal and equal to it where one leads; a feature of less than half the energy does not count.
 """
 
-from math import log, pi, sqrt
+from math import log, sqrt
 
+from dilatedem.contact.consistent.bounds import bound_edges, edge_counts, line_bound, point_bound, surely_below
 from dilatedem.contact.consistent.cap import CORNERS, UNBOUNDED, corner_of, facing, lay_out, lay_sides, nearest, side_of
 from dilatedem.contact.consistent.face import press_face
 from dilatedem.contact.consistent.four import corners_of, has_four, press_four
-from dilatedem.contact.consistent.line import BASE, BEND, LEVEL, line_compliance, press_edge
+from dilatedem.contact.consistent.line import press_edge
 from dilatedem.contact.consistent.point import press_vertex
 from dilatedem.contact.consistent.rim import FAR, strongest_rim
 from dilatedem.contact.support import PARALLEL
@@ -20,12 +21,8 @@ from dilatedem.state.modes import Mode
 #: exponent of the norm
 SHARP = 16.0
 SHARE = log(2.0) / SHARP
-HERTZ = 8.0 / 15.0
 #: share of the largest energy below which a feature is left out: its force would be 0.5^15 = 3e-5 of its own
 NEGLECTED = 0.5
-
-#: `line_compliance`, or a little less, at L^2/(R* overlap) = 1e2, 1e3, 1e4, 1e5
-SLENDER_2, SLENDER_3, SLENDER_4, SLENDER_5 = (BASE + log(x) + BEND * log(x) / (log(x) + LEVEL) for x in (1e2, 1e3, 1e4, 1e5))
 
 VERTEX_VERTEX, VERTEX_EDGE, VERTEX_FACE = int(Mode.VERTEX_VERTEX), int(Mode.VERTEX_EDGE), int(Mode.VERTEX_FACE)
 EDGE_CROSSING, EDGE_PARALLEL = int(Mode.EDGE_CROSSING), int(Mode.EDGE_PARALLEL)
@@ -56,51 +53,21 @@ def join_feature(largest, total, force, moment, energy, more, turn):
     return energy, total * power + 1.0, along(more, share, force), along(turn, share, moment)
 
 
-@device
-def _line_bound(modulus, second, length, overlap, curvature):
-    """Upper bound of the energy of an edge with the integral `second` of its squared overlap, no more than `overlap` anywhere, no
-    longer than `length`."""
-    short = second / (overlap * overlap)  # the shorter the line, the stiffer
-    return 0.5 * pi * modulus * second / line_compliance(min(short, length) ** 2 * curvature / overlap)[0]
-
-
-@device
-def _surely_below(modulus, second, length, overlap, radius, least):
-    """Whether `_line_bound` is below `least`, told without its logarithm; False where that cannot tell."""
-    short = min(second, length * overlap * overlap)  # the shorter length, times the squared overlap
-    x, unit = short * short, overlap * overlap * overlap * overlap * overlap * radius
-    compliance = SLENDER_2
-    if x > 1e5 * unit:
-        compliance = SLENDER_5
-    elif x > 1e4 * unit:
-        compliance = SLENDER_4
-    elif x > 1e3 * unit:
-        compliance = SLENDER_3
-    elif x < 1e2 * unit:
-        return False
-    return 0.5 * pi * modulus * second < least * compliance
-
-
-@device
-def _point_bound(modulus, overlap, radius):
-    """Upper bound of the energy of a vertex that presses by at most `overlap`."""
-    return HERTZ * modulus * overlap * overlap * sqrt(overlap * radius)
-
-
 @item
 def _rims_count(scratch, patch, reach, overlap, bluntest, modulus, least):
-    """Whether an edge or a vertex beside a patch can have an energy of `least` [J], and the length that none of the contacts of
-    edges exceeds [m].
+    """Whether an edge or a vertex beside a patch can have an energy of `least` [J].
 
-    patch: as `press_face` returns it; bluntest: the larger radius.
+    patch: as `press_face` returns it; reach [m]: of both dilations, less what has crushed; overlap [m]: the deepest there is;
+    bluntest: the larger radius.
     """
     count, now, tilt, second, longest = patch
-    pointed = _point_bound(modulus, overlap, bluntest) >= least
-    if not pointed and _surely_below(modulus, second, longest, overlap, bluntest, least):
-        return False, longest
+    if point_bound(modulus, overlap, bluntest) >= least:
+        return True
+    if surely_below(modulus, second, longest, overlap, bluntest, least):
+        return False
     beyond = sqrt(2.0 * reach * overlap)
     second, longest = strongest_rim(scratch[now], count, beyond, tilt * beyond, overlap)
-    return pointed or _line_bound(modulus, second, longest, overlap, 1.0 / bluntest) >= least, longest
+    return line_bound(modulus, second, longest, overlap, 1.0 / bluntest) >= least
 
 
 @device
@@ -115,54 +82,24 @@ def mode_of_edges(scratch, which, count, normal, p, e, force, moment):
 
 
 @device
-def _runs_past(scratch, which, count, normal, p, d, square):
-    """Whether an edge from p to p + d lies farther out beyond a side of cap `which` than the root of `square` [m2]."""
-    for k in range(count):
-        out = cross(side_of(scratch, which, k), normal)
-        u = dot(sub(p, corner_of(scratch, which, k)), out)
-        least = min(u, u + dot(d, out))
-        if least > 0.0 and least * least > square:
-            return True
-    return False
-
-
-@device
-def _press_rims(own, scratch, count, radius, their, other, normal, reach, overlap, longest, modulus, sums):
-    """Add the edges and vertices of cap `own` (0: of a, 1: of b) that press on the other cap to the sums of `join_feature`;
-    returns those with the mode and size of the leading feature.
+def _press_rims(own, first, scratch, count, radius, their, other, normal, reach, overlap, modulus, sums):
+    """Add the edges, from the `first` on around, and the vertices of cap `own` (0: of a, 1: of b) that press on the other cap to
+    the sums of `join_feature`; returns those with the mode and size of the leading feature.
 
     count, radius: corners and dilated radius of cap `own`; their, other, normal: of the other cap; reach [m]: of both dilations,
-    less what has crushed; longest: length that no contact of an edge exceeds [m].
+    less what has crushed; overlap [m]: the deepest there is. `bounds.bound_edges` has been here.
     """
     largest, total, force, moment, mode, size, spread = sums
     which, sign = 1 - own, 2.0 * own - 1.0
     flat = their > 2 or their == UNBOUNDED
-    for i in range(count if count > 2 else count - 1):
+    edges = count if count > 2 else count - 1
+    bluntest = radius if flat else radius * other / (radius + other)
+    for k in range(edges):
+        i = first + k if first + k < edges else first + k - edges
+        if not edge_counts(own, scratch, i, bluntest, modulus, NEGLECTED * largest):
+            continue
         p, e = corner_of(scratch, own, i), side_of(scratch, own, i)
-        d = sub(corner_of(scratch, own, i + 1 if i + 1 < count else 0), p)
-        length = dot(d, e)
-        if flat:
-            # overlaps of its ends with the plane of the other cap
-            u = reach - dot(sub(p, corner_of(scratch, which, 0)), normal)
-            v = u - dot(d, normal)
-            deepest = max(u, v)
-            if deepest <= 0.0:
-                continue
-            shallow, pressed = min(u, v), length
-            if shallow < 0.0:
-                shallow, pressed = 0.0, length * deepest / abs(u - v)
-            # the overlap with the plane falls from the one to the other
-            second = pressed * (deepest * deepest + deepest * shallow + shallow * shallow) / 3.0
-            above = max(reach - deepest, 0.0)
-            pressed, deepest = min(pressed, longest), min(deepest, overlap)
-            second = min(second, pressed * deepest * deepest)
-            least = NEGLECTED * largest
-            if _surely_below(modulus, second, pressed, deepest, radius, least):
-                continue
-            if _line_bound(modulus, second, pressed, deepest, 1.0 / radius) < least:
-                continue
-            if their != UNBOUNDED and _runs_past(scratch, which, their, normal, p, d, reach * reach - above * above):
-                continue
+        length = dot(sub(corner_of(scratch, own, i + 1 if i + 1 < count else 0), p), e)
         energy, more, turn, line, across = press_edge(
             p, e, length, radius, scratch, which, their, normal, other, reach, modulus, SHARP
         )
@@ -174,11 +111,13 @@ def _press_rims(own, scratch, count, radius, their, other, normal, reach, overla
                 spread = scale(line / sqrt(12.0), e), NONE
             more, turn = scale(sign, more), scale(sign, turn)
             largest, total, force, moment = join_feature(largest, total, force, moment, energy, more, turn)
+    if point_bound(modulus, overlap, radius) < NEGLECTED * largest:
+        return largest, total, force, moment, mode, size, spread
     for i in range(count):
         x = corner_of(scratch, own, i)
         if flat:
-            deepest = reach - dot(sub(x, corner_of(scratch, which, 0)), normal)
-            if deepest <= 0.0 or _point_bound(modulus, deepest, radius) < NEGLECTED * largest:
+            deepest = min(reach - dot(sub(x, corner_of(scratch, which, 0)), normal), overlap)
+            if deepest <= 0.0 or point_bound(modulus, deepest, radius) < NEGLECTED * largest:
                 continue
         energy, more, across, beyond = press_vertex(x, radius, scratch, which, their, normal, other, reach, modulus, SHARE)
         if energy > NEGLECTED * largest:
@@ -226,7 +165,7 @@ def pose_energy(
             normal_b = load(face_normal, fb)
     reach = ra + rb - crushed
     sums = 0.0, 0.0, NONE, NONE, VERTEX_FACE, 1.0, (NONE, NONE)
-    longest, bluntest, needed, told, energy = FAR, max(ra, rb), True, False, 0.0
+    needed, told, energy = True, False, 0.0
     more, turn, area, spread, patch = NONE, NONE, 0.0, (NONE, NONE), (0, 0, 0.0, FAR, FAR)
     if fa >= 0 and fb >= 0 and has_four(shapes, fa) and has_four(shapes, fb):
         told, energy, more, turn, area, spread, patch = press_four(
@@ -240,15 +179,23 @@ def pose_energy(
             energy, more, turn, area, spread, patch = press_face(scratch, na, normal_a, nb, normal_b, reach, overlap, modulus)
     if energy > 0.0:
         sums = energy, 1.0, scale(-1.0, more), scale(-1.0, turn), FACE_FACE, area, spread
-        needed, longest = _rims_count(scratch, patch, reach, overlap, bluntest, modulus, NEGLECTED * energy)
+        needed = _rims_count(scratch, patch, reach, overlap, max(ra, rb), modulus, NEGLECTED * energy)
     if needed:
         if told:
             na, nb = _lay_out(vertex, shapes, a, b, fa, fb, offset, pb, half_space, scratch)
         lay_sides(scratch, 0, na)
         lay_sides(scratch, 1, nb)
-        sums = _press_rims(0, scratch, na, ra, nb, rb, normal_b, reach, overlap, longest, modulus, sums)
+        most, first_a = bound_edges(0, scratch, na, nb, normal_b, reach, overlap)
+        most_b, first_b = 0.0, 0
         if not half_space:
-            sums = _press_rims(1, scratch, nb, rb, na, ra, normal_a, reach, overlap, longest, modulus, sums)
+            most_b, first_b = bound_edges(1, scratch, nb, na, normal_a, reach, overlap)
+        # the strongest edge first: beside it, the bounds of most others tell that they do not count
+        lead = 0 if most >= most_b else 1
+        for own in (lead, 1 - lead):
+            if own == 0:
+                sums = _press_rims(0, first_a, scratch, na, ra, nb, rb, normal_b, reach, overlap, modulus, sums)
+            elif not half_space:
+                sums = _press_rims(1, first_b, scratch, nb, rb, na, ra, normal_a, reach, overlap, modulus, sums)
     largest, total, force, moment, mode, size, spread = sums
     if largest == 0.0:
         return 0.0, NONE, NONE, mode, size, spread

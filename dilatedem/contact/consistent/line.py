@@ -19,6 +19,7 @@ BASE, BEND, LEVEL, STUB = 2.09, 2.1, 7.4, 0.63
 STEP = 1e-8
 #: squared sine of the angle between an edge and the plane, or the side, below which its distance from them does not change
 PARALLEL2 = 1e-24
+HALVED = log(2.0)
 NONE = (0.0, 0.0, 0.0)
 #: Gauss-Legendre abscissae and weights of four points on -1..1, exact to degree 7
 OUTER, INNER = sqrt(3.0 / 7.0 + 2.0 / 7.0 * sqrt(1.2)), sqrt(3.0 / 7.0 - 2.0 / 7.0 * sqrt(1.2))
@@ -91,7 +92,7 @@ def exit_of_region(scratch, which, count, normal, region, place, x, e, length):
 
 
 @device
-def _pressing(w, turn, reach, low, high):
+def pressing(w, turn, reach, low, high):
     """The part of low..high where |w + s turn| < reach; empty: the second is not above the first."""
     a, b, c = dot(turn, turn), dot(w, turn), dot(w, w) - reach * reach
     if a <= PARALLEL2:
@@ -209,7 +210,7 @@ def press_edge(p, e, length, radius, scratch, which, count, normal, other, reach
         elif region == SIDE:
             side = side_of(scratch, which, place)
             turn = along(e, -dot(e, side), side)
-        begin, stop = _pressing(w, turn, reach, -STEP * length, way)
+        begin, stop = pressing(w, turn, reach, -STEP * length, way)
         if stop > begin:
             sums = _add_piece(sums, x, e, begin, stop, w, turn, scratch, which, count, normal, region, place, reach, width)
         s += max(way, 0.0)
@@ -233,9 +234,16 @@ def _whole_line(sums, radius, other, bare, modulus, sharp):
     i1, i2, f1, f2, m1, m2, i3, f3, m3, i4, f4, m4 = sums
     if i2 <= 0.0:
         return 0.0, NONE, NONE, 0.0, 0.0
-    width, their, yielded = BLEND * (radius + other), 0.0, 0.0
-    if other > 0.0:
-        their, yielded = 1.0 / other, log(1.0 + (radius / other) ** 8) / sharp
+    width, their = BLEND * (radius + other), 1.0 / other if other > 0.0 else 0.0
+    if not bare and i3 == 0.0:  # all of it over the face: nothing of what follows but the energy
+        energy, by_first, by_second, _ = line_energy(modulus, i1, i2, 1.0 / radius)
+        force = along(scale(by_first, f1), by_second, f2)
+        return energy, force, along(scale(by_first, m1), by_second, m2), i1 * i1 / i2, 0.0
+    yielded = 0.0
+    if other == radius:
+        yielded = HALVED / sharp
+    elif other > 0.0:
+        yielded = log(1.0 + (radius / other) ** 8) / sharp
     # how far, in the mean square, the line lies beyond the border of the cap (the plain mean would have a kink where a parallel
     # line passes the border): the curvature of the rim comes in, and the share of the other's edge. To the power of 3/2, so that
     # little of it counts: the rims round which a line over the face runs out at its ends lie along it
