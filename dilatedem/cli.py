@@ -17,7 +17,7 @@ from dilatedem.commands.manners import Program, cautions, known_faults, say
 from dilatedem.commands.paraview import paraview
 from dilatedem.commands.post import post
 from dilatedem.errors import WRONG, CaseError, printable
-from dilatedem.garbage import seldom_collected
+from dilatedem.garbage import left_at_the_end, seldom_collected
 from dilatedem.processes import interrupts
 
 app = Program(
@@ -243,6 +243,7 @@ def main() -> None:
         if fault := _unusable(argument):
             print(f"argument {number}, {printable(argument[:60])}: {fault}", file=sys.stderr)
             sys.exit(WRONG)
+    left_at_the_end()
     with interrupts.heard_once(), seldom_collected():
         app()
 

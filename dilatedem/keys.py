@@ -103,7 +103,8 @@ Name = Annotated[str, Field(pattern=r"^[^\W\d][\w-]*$")]
 class Table(BaseModel):
     """A table of the case file: unknown keys, loose types and non-finite numbers are errors."""
 
-    model_config = ConfigDict(extra="forbid", strict=True, frozen=True, allow_inf_nan=False)
+    # built when it is first asked: most tables never are, but as parts of a case
+    model_config = ConfigDict(extra="forbid", strict=True, frozen=True, allow_inf_nan=False, defer_build=True)
 
     def faults(self) -> list[Fault]:
         """What is wrong between the keys of this table, each of them being fine alone."""

@@ -11,7 +11,6 @@ from typing import Annotated, Literal
 
 import numpy as np
 from pydantic import Field
-from scipy.special import ndtr, ndtri
 
 from dilatedem.keys import Fault, Positive, Table, key
 
@@ -114,6 +113,8 @@ BY_NAME = {"power_law": PowerLaw, "lognormal": Lognormal}
 
 def lognormal_shares(count: int, spread: float) -> np.ndarray:
     """(count,) means of equal shares of a lognormal distribution over its mean, ascending; spread: deviation of the logarithm."""
+    from scipy.special import ndtr, ndtri  # it takes a third of a second to load, and few fields need it
+
     bounds = ndtri(np.arange(count + 1) / count)
     return np.round(count * np.diff(ndtr(bounds - spread)), DIGITS)
 

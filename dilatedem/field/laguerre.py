@@ -12,10 +12,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.spatial import ConvexHull
 
 from dilatedem.field.tessellation import BELT, centroids, distinct_corners, on_sides, with_copies
 from dilatedem.geometry.outline import Outlines
+from dilatedem.geometry.qhull import ConvexHull
 from dilatedem.numerics.blocks import offsets
 from dilatedem.numerics.plain import angle, dot, norm
 

@@ -12,9 +12,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from scipy.spatial import Voronoi
 
 from dilatedem.geometry.outline import Outlines, centroid
+from dilatedem.geometry.qhull import Voronoi
 from dilatedem.numerics.blocks import offsets
 from dilatedem.numerics.plain import angle, norm
 

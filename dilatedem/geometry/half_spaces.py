@@ -1,9 +1,9 @@
 """Convex solids as what is common to half spaces: of given planes, moved inwards, cut to a range of heights."""
 
 import numpy as np
-from scipy.spatial import HalfspaceIntersection, QhullError
 
 from dilatedem.geometry.polyhedron import Polyhedron, convex_hull
+from dilatedem.geometry.qhull import HalfspaceIntersection, QhullError
 from dilatedem.numerics.plain import dot, norm
 
 #: radius of the largest ball over the extent below which a solid is taken for empty

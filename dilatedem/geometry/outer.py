@@ -10,12 +10,12 @@ from collections.abc import Iterator
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.spatial import HalfspaceIntersection, QhullError
 
 from dilatedem.geometry import outline as plan
 from dilatedem.geometry.mass import edge_arcs, vertex_directions
 from dilatedem.geometry.polyhedron import Polyhedron, assemble, centroid, convex_hull, prism
 from dilatedem.geometry.polyhedron import volume as polyhedron_volume
+from dilatedem.geometry.qhull import HalfspaceIntersection, QhullError
 from dilatedem.numerics.plain import dot, norm, nth_root, sine_cosine, turned
 
 # Sides of the polygon that stands for a circle in the outer shape of spheres and capsules, a multiple of 4:

@@ -15,8 +15,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.spatial import ConvexHull, QhullError, cKDTree
 
+from dilatedem.geometry.qhull import ConvexHull, QhullError
 from dilatedem.numerics.plain import determinant, dot, norm
 
 # Relative to the largest extent of the body: points closer than this are one point, a set thinner than this
@@ -228,9 +228,9 @@ def _directed_edges(faces: tuple[np.ndarray, ...]) -> tuple[np.ndarray, np.ndarr
 
 def _distinct(points: np.ndarray, distance: float) -> np.ndarray:
     """The points without those within `distance` of an earlier one."""
-    pairs = cKDTree(points).query_pairs(distance, output_type="ndarray")
     keep = np.ones(len(points), dtype=bool)
-    keep[pairs.max(axis=1)] = False
+    for i in range(len(points) - 1):
+        keep[i + 1 :] &= norm(points[i + 1 :] - points[i]) > distance
     return points[keep]
 
 

@@ -4,12 +4,12 @@ import math
 import time
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from dilatedem.case.load import case_from
 from dilatedem.case.schema import Case
-from dilatedem.deformation.bent import Bent
 from dilatedem.errors import CaseError, SimulationStopped
 from dilatedem.events.event import Event
 from dilatedem.events.kinds import events_of
@@ -25,7 +25,6 @@ from dilatedem.run.hits import hit_log, hits_at_start
 from dilatedem.run.pace import STRIDE_PHASE, free_span, time_step
 from dilatedem.run.views import Floes, Structures
 from dilatedem.scene.arrays import build_model, initial_bodies, initial_excursions
-from dilatedem.scene.bending import bent_bodies
 from dilatedem.scene.entering import Entering
 from dilatedem.scene.inflow import strips_at_start
 from dilatedem.scene.overlaps import require_apart
@@ -44,6 +43,9 @@ from dilatedem.state.storage import Cells, Tally, Workspace, empty_tally, make_c
 from dilatedem.state.supports import Excursions, support_energies
 from dilatedem.step.advance import advance
 from dilatedem.water.loads import WORKS, wet_columns, works_of
+
+if TYPE_CHECKING:
+    from dilatedem.deformation.bent import Bent
 
 #: room for pairs at the start, per body; it grows where it is not enough
 PAIRS_PER_BODY = 8
@@ -186,8 +188,10 @@ class Simulation:
         self.step(max(0, math.ceil((until - self.time) / self.dt - ROUND_OFF)))
 
     @cached_property
-    def bent(self) -> dict[int, Bent]:
+    def bent(self) -> "dict[int, Bent]":
         """The bodies that bend, by number."""
+        from dilatedem.scene.bending import bent_bodies  # it loads half of SciPy
+
         return bent_bodies(self.case, self.scene, self.model.solids.mode_count)
 
     @property

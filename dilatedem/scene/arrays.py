@@ -6,12 +6,11 @@ from dilatedem.case.schema import Case
 from dilatedem.contact.consistent.dashpot import touch_damping
 from dilatedem.errors import CaseError
 from dilatedem.geometry.outline import perimeter
-from dilatedem.geometry.shapes import Hulls, pack_hulls, pack_shapes, tapered
+from dilatedem.geometry.shapes import Hulls, Shapes, pack_hulls, pack_shapes, tapered
 from dilatedem.numerics.blocks import offsets
 from dilatedem.numerics.frames import matrix_from_quaternion
 from dilatedem.numerics.plain import inverse, turned
 from dilatedem.scene.added_mass import with_water
-from dilatedem.scene.bending import bent_solids
 from dilatedem.scene.carriage import pack_supports, places, velocities_at_start
 from dilatedem.scene.joined import join_hulls, join_inertia
 from dilatedem.scene.place import Scene
@@ -50,7 +49,7 @@ def build_model(case: Case, scene: Scene) -> Model:
         joined=joined_rows(scene.joints.floe),
         shapes=tapered(shapes, np.concatenate([np.zeros(scene.count), [part.taper for part in parts]])),
         hulls=hulls,
-        solids=bent_solids(case, scene, _solids(case, scene, supports, hulls), shapes),
+        solids=_solids_as_they_bend(case, scene, _solids(case, scene, supports, hulls), shapes),
         contact=_contact_setting(case),
         loads=load_setting(case),
         surroundings=Surroundings(*np.where(periodic, case.domain.size, 0.0).tolist()),
@@ -108,6 +107,15 @@ def _require_one_image(case: Case, reach: np.ndarray, cores: list[Part], periodi
             number = int(np.argmax(reach))
             raise CaseError(f"{where}body {number}, {2.0 * largest:.3g} m across, could meet its own image")
         raise CaseError(f"{where}the two largest bodies could meet on both sides at once")
+
+
+def _solids_as_they_bend(case: Case, scene: Scene, solids: Solids | WateredSolids, shapes: Shapes) -> Solids | ModalSolids:
+    """The same bodies, with their modes where a case has bodies that bend."""
+    if not case.bends:
+        return solids
+    from dilatedem.scene.bending import bent_solids  # it loads half of SciPy
+
+    return bent_solids(case, scene, solids, shapes)
 
 
 def _solids(case: Case, scene: Scene, supports: Supports, hulls: Hulls) -> Solids | WateredSolids:

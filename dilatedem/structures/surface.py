@@ -5,9 +5,6 @@ from functools import lru_cache
 from pathlib import Path
 
 import numpy as np
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
-from scipy.spatial import cKDTree
 
 from dilatedem.geometry.polyhedron import Polyhedron, convex_hull, volume
 from dilatedem.numerics.plain import determinant
@@ -91,10 +88,11 @@ def _triangles(file: str) -> tuple[np.ndarray, np.ndarray]:
 
 def _joined(points: np.ndarray, corners: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """The same with corners of one place made one, and triangles of no area left out."""
+    from scipy.spatial import cKDTree  # what few cases need is loaded for them alone
+
     size = float(np.ptp(points[corners.ravel()], axis=0).max())
     pairs = cKDTree(points).query_pairs(SAME_CORNER * size, output_type="ndarray")
-    near = coo_array((np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), shape=(len(points), len(points)))
-    count, place = connected_components(near, directed=False)
+    count, place = _connected(pairs[:, 0], pairs[:, 1], len(points))
     first = np.full(count, len(points))
     np.minimum.at(first, place, np.arange(len(points)))
     corners = place[corners]
@@ -113,10 +111,18 @@ def _require_closed(corners: np.ndarray) -> None:
         raise ValueError("has triangles that do not run the same way around: have a mesh program make its normals consistent")
 
 
+def _connected(start: np.ndarray, end: np.ndarray, count: int) -> tuple[int, np.ndarray]:
+    """How many groups links from start (k,) to end (k,) make of `count` things, and (count,) the number of each one's group."""
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+
+    return connected_components(coo_array((np.ones(len(start)), (start, end)), shape=(count, count)), directed=False)
+
+
 def _surface_of(count: int, corners: np.ndarray) -> np.ndarray:
     """(count,) number of the connected surface that each corner belongs to."""
     start, end = corners.ravel(), np.roll(corners, -1, axis=1).ravel()
-    return connected_components(coo_array((np.ones(len(start)), (start, end)), shape=(count, count)), directed=False)[1]
+    return _connected(start, end, count)[1]
 
 
 def _enclosed(points: np.ndarray, corners: np.ndarray) -> float:

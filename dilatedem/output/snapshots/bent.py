@@ -2,9 +2,6 @@
 
 import numpy as np
 
-from dilatedem.deformation.bent import Bent
-from dilatedem.deformation.mesh import Mesh
-from dilatedem.deformation.stress import tension, von_mises
 from dilatedem.numerics.frames import matrix_from_quaternion
 from dilatedem.numerics.plain import turned
 from dilatedem.output import folder
@@ -30,8 +27,10 @@ class BentSnapshots(Collection):
 
     def open(self, kept: dict | None, since: int) -> None:
         super().open(kept, since)
-        self._surfaces: dict[int, Surface] = {}
+        self._surfaces = {}
         if self.interval(self.simulation.case):
+            from dilatedem.deformation.surface import Surface  # it loads half of SciPy
+
             self._surfaces = {number: Surface(bent) for number, bent in self.simulation.bent.items()}
 
     def note(self, step: int) -> None:
@@ -51,21 +50,3 @@ class BentSnapshots(Collection):
             {"displacement": moved, "von_mises": mises, "tension": pull},
             {"body": np.array(which, np.int64), "above_strength": (failed_at[which] < np.inf).astype(np.int64)},
         )  # fmt: skip
-
-
-class Surface:
-    """The surface of a body's mesh: its corners and what each mode does there."""
-
-    def __init__(self, body: Bent):
-        modes = body.modes
-        surface = Mesh(modes.nodes, modes.elements[:, :4]).surface()
-        corner, self.triangles = np.unique(surface, return_inverse=True)
-        self.triangles = self.triangles.reshape(surface.shape)
-        self._points, self._shape, self._stress = modes.nodes[corner], modes.shape[:, corner], modes.stress[:, corner]
-
-    def bent(self, out: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-        """Places (c, 3) and displacements (c, 3) [m] in the body's frame, von Mises' stress (c,) and tension (c,) [Pa]."""
-        moved, stress = np.zeros_like(self._points), np.zeros((len(self._points), 6))
-        for own, shape, unit in zip(out, self._shape, self._stress, strict=False):  # in a fixed order
-            moved, stress = moved + own * shape, stress + own * unit
-        return self._points + moved, moved, von_mises(stress), tension(stress)
