@@ -8,20 +8,22 @@ touch, so every contact begins with a single step, as stiff as it may be.
 Verlet steps of one length keep an energy of their own, which differs from the true one by h^2 (k v^2/12 - F^2/(24 m)); where their
 length changes, that difference is lost or won. So what is bounded are the phase that a contact goes through in a stride, this phase
 times the speed at which it deepens, and what the loads on a body change its velocity by: the latter two against the speed of the
-ice. All that is looked at stands in the state, so a run that is continued takes the same strides; at the end of a span all are
-together.
+ice. Where a long stride would end the contacts are looked at beforehand, as their forces may have jumped. All that is looked at
+stands in the state, so a run that is continued takes the same strides; at the end of a span all are together.
 """
 
 from math import sqrt
 from typing import NamedTuple
 
 from dilatedem.contact.collide import gap_between
+from dilatedem.contact.laws import force_change
 from dilatedem.contact.turning import turn_shape
 from dilatedem.jit import device, item
 from dilatedem.motion.integrate import place_ahead
 from dilatedem.motion.modal import bends
 from dilatedem.numerics.vector import dot, load, sub
 from dilatedem.state.clock import NEVER
+from dilatedem.state.pairs import SIMPLEX
 from dilatedem.state.response import is_free, is_joined, mobility, relative_velocity, stride_of
 
 #: share of its overlap by which a contact may deepen or open in a stride
@@ -44,6 +46,7 @@ class Pace(NamedTuple):
     span: int  # those that nothing can touch
     frequency: float  # rad/s, angular frequency of contacts that single steps are made for; 0: all that are busy take single steps
     speed: float  # m/s, how fast ice goes; 0: no stride is longer, as nothing is small against it
+    long: int  # steps of a stride from which on it is looked at what the contacts will press with where it ends
 
 
 @item
@@ -122,7 +125,9 @@ def choose_strides(now, end, dt, pace, near, count, model, bodies, pairs, worksp
     if longer:
         _bound_by_bodies(dt, pace, count, model.solids, model.shapes, bodies, pairs, workspace)
         _bound_by_contacts(dt, pace, near, model.solids, bodies, pairs, workspace)
-        while _look_ahead(dt, near, model, bodies, pairs, workspace):
+        while _look_ahead(dt, near, model, bodies, pairs, workspace) or (
+            _is_long(pace, count, workspace) and _look_at_contacts(dt, pace, near, model, bodies, pairs, workspace)
+        ):
             pass
     for w in range(count):
         i = workspace.due_bodies[w]
@@ -222,6 +227,70 @@ def _look_ahead(dt, near, model, bodies, pairs, workspace):
             most[root] = int(most[root]) / SHORTER
             shortened = True
     return shortened
+
+
+@device
+def _look_at_contacts(dt, pace, near, model, bodies, pairs, workspace):
+    """Shorten long strides at whose ends a contact would press quite differently; returns whether there were any, as `_look_ahead`.
+
+    Within a stride a contact may deepen many times over although it hardly does now, where faces close as they tilt; and its mode
+    may change, and its force jump.
+    """
+    most, shortened = workspace.most_steps, False
+    workspace.looks[0] += 1
+    for w in range(near):
+        k = workspace.near[w]
+        a, b = pairs.a[k], pairs.b[k]
+        root = _island_of(a, b, workspace.island)
+        if pairs.overlap[k] <= 0.0 or most[root] < pace.long or stride_of(a, b, workspace) == 0:
+            continue
+        time = dt * int(most[root])
+        _place(a, time, model, bodies, workspace)
+        _place(b, time, model, bodies, workspace)
+        if time * _force_ahead(k, model, bodies, pairs, workspace) > MOST_KICK * pace.speed:
+            most[root] = int(most[root]) / SHORTER
+            shortened = True
+    return shortened
+
+
+@device
+def _force_ahead(k, model, bodies, pairs, workspace):
+    """By how much the elastic force of contact k would differ where the look has placed its bodies, over what these oppose to it,
+    m/s2: the larger of both."""
+    a, b, solids, q = pairs.a[k], pairs.b[k], model.solids, bodies.orientation
+    corners, of_a, of_b = pairs.corners[k], _corners(pairs.corner_a, k), _corners(pairs.corner_b, k)
+    gap, offset, normal, pa, pb, _ = gap_between(
+        k, model.shapes, workspace.vertex_ahead, workspace.face_normal_ahead, workspace.position_ahead, pairs, model.contact,
+        model.surroundings,
+    )  # fmt: skip
+    change = 0.0
+    if gap < 0.0:
+        change = force_change(
+            model.contact, k, model.shapes, workspace.vertex_ahead, workspace.face_normal_ahead, solids, pairs, offset, normal, pa,
+            pb, gap, workspace.clip[0],
+        )  # fmt: skip
+    # the next evaluation begins its search where the last one ended, whether somebody has looked ahead or not
+    pairs.corners[k] = corners
+    for c in range(SIMPLEX):
+        pairs.corner_a[k, c], pairs.corner_b[k, c] = of_a[c], of_b[c]
+    point, arm = load(pairs.point, k), load(pairs.arm, k)
+    return change * max(mobility(a, solids, q, point, normal), mobility(b, solids, q, arm, normal))
+
+
+@item
+def _corners(corner, k):
+    """Row k of `Pairs.corner_a` or `corner_b`."""
+    return corner[k, 0], corner[k, 1], corner[k, 2], corner[k, 3]
+
+
+@item
+def _is_long(pace, count, workspace):
+    """Whether some island that is due may take a long stride."""
+    for w in range(count):
+        i = workspace.due_bodies[w]
+        if workspace.island[i] == i and workspace.most_steps[i] >= pace.long:
+            return True
+    return False
 
 
 @item

@@ -4,12 +4,12 @@ import math
 import time
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from dilatedem.case.load import case_from
 from dilatedem.case.schema import Case
+from dilatedem.contact.laws import law_of
 from dilatedem.errors import CaseError, SimulationStopped
 from dilatedem.events.event import Event
 from dilatedem.events.kinds import events_of
@@ -43,9 +43,6 @@ from dilatedem.state.storage import Cells, Tally, Workspace, empty_tally, make_c
 from dilatedem.state.supports import Excursions, support_energies
 from dilatedem.step.advance import advance
 from dilatedem.water.loads import WORKS, wet_columns, works_of
-
-if TYPE_CHECKING:
-    from dilatedem.deformation.bent import Bent
 
 #: room for pairs at the start, per body; it grows where it is not enough
 PAIRS_PER_BODY = 8
@@ -188,8 +185,8 @@ class Simulation:
         self.step(max(0, math.ceil((until - self.time) / self.dt - ROUND_OFF)))
 
     @cached_property
-    def bent(self) -> "dict[int, Bent]":
-        """The bodies that bend, by number."""
+    def bent(self) -> dict:
+        """The bodies that bend, each a `deformation.bent.Bent`, by number."""
         from dilatedem.scene.bending import bent_bodies  # it loads half of SciPy
 
         return bent_bodies(self.case, self.scene, self.model.solids.mode_count)
@@ -271,7 +268,8 @@ class Simulation:
     @property
     def pace(self) -> Pace:
         """How many steps bodies may take in one."""
-        return Pace(self.span, STRIDE_PHASE / self.critical if self.strides else 0.0, self.speed)
+        phase, long = STRIDE_PHASE / self.critical if self.strides else 0.0, law_of(self.model.contact).LONG_STRIDE
+        return Pace(self.span, phase, self.speed, long)
 
     def energies(self) -> dict[str, float]:
         """The ledger as `advance` left it, in J: the columns of energy.csv (without time and residual)."""

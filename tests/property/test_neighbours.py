@@ -46,7 +46,7 @@ def test_no_contact_is_missed(boundary):
         status = advance(
             Alone(), NoTimer(), simulation.model, state.ids, copies, state.excursions, fresh, empty_pairs(len(fresh.a)),
             simulation.cells, workspace, empty_tally(), empty_ledger(), loads, simulation.windows, state.hits, simulation.log,
-            clock, Pace(1, 0.0, 0.0), 1,
+            clock, Pace(1, 0.0, 0.0, 1), 1,
         )  # fmt: skip
         assert status == 0
         anew = open_contacts(fresh)

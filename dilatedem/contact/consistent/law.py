@@ -5,7 +5,7 @@ from math import pi, sqrt
 import numpy as np
 
 from dilatedem.contact.consistent.line import line_compliance
-from dilatedem.contact.consistent.press import DEEPEST_SHARE, press_consistent
+from dilatedem.contact.consistent.press import DEEPEST_SHARE, force_change_consistent, press_consistent
 from dilatedem.contact.liu2015 import law as liu2015
 from dilatedem.contact.spring import rescaled
 from dilatedem.jit import device, item
@@ -13,8 +13,11 @@ from dilatedem.numerics.plain import norm
 from dilatedem.numerics.vector import dot
 
 MEMORY = ("wrung", "grip")
+#: the force does not jump; it rises many times over where faces close as they tilt, in a stride of more than so many steps
+LONG_STRIDE = 12
 
 press = press_consistent
+force_change = force_change_consistent
 
 
 @device

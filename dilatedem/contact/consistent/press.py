@@ -9,7 +9,7 @@ from dilatedem.contact.crushing.depth import UNTRIED, WHOLE, dearer, note_crushe
 from dilatedem.contact.pressed import Pressed
 from dilatedem.contact.search.cone import radius_at
 from dilatedem.jit import device, item
-from dilatedem.numerics.vector import along, cross, dot, scale, store, sub
+from dilatedem.numerics.vector import along, cross, dot, norm, scale, store, sub
 from dilatedem.state.response import mobility, relative_spin, relative_velocity
 
 #: share of the sum of the radii past which the distance of the cores means nothing to the energy: they are about to touch
@@ -72,6 +72,24 @@ def _act(contact, a, b, solids, bodies, offset, through, energy, force, moment):
         strength = dashpot(contact, elastic, give * energy, power * (unit * elastic))
         share = max(1.0 + strength * power * unit, 0.0)
     return Acting(point, arm, direction, couple, velocity, turning, square, elastic, power, strength, share)
+
+
+@device
+def force_change_consistent(contact, k, shapes, vertex, face_normal, solids, pairs, offset, normal, pa, pb, gap, scratch):
+    """By how much [N] the elastic force of contact k at a pose differs from what it is now; nothing is written.
+
+    Arguments as of `press_consistent`.
+    """
+    a, b, crushed, ahead = pairs.a[k], pairs.b[k], worn(contact, k, pairs), 0.0
+    reach = shapes.radius[a] + radius_at(shapes, vertex, b, sub(pb, offset))
+    if crushed - gap < DEEPEST_SHARE * reach:
+        modulus = 1.0 / (solids.compliance[a] + solids.compliance[b])
+        _, force, _, _, _, _ = energy_of_pose(
+            vertex, face_normal, shapes, a, b, pairs.corners[k], pairs.corner_a[k], pairs.corner_b[k], offset, normal, pb, crushed,
+            -gap, modulus, scratch,
+        )  # fmt: skip
+        ahead = norm(force)
+    return abs(ahead - sqrt(pairs.tangent[k] / TANGENT * pairs.stored[k]))
 
 
 @item

@@ -4,13 +4,16 @@ from math import inf, pi
 
 import numpy as np
 
-from dilatedem.contact.liu2015.press import BETA, press_liu2015
+from dilatedem.contact.liu2015.press import BETA, force_change_liu2015, press_liu2015
 from dilatedem.jit import device, item
 from dilatedem.numerics.vector import dot, norm
 
 MEMORY = ("stiffness", "exponent")
+#: the force jumps with the mode: by 100 kN it makes 0.02 J in a single step of the paper's case, and the square of the stride more
+LONG_STRIDE = 6
 
 press = press_liu2015
+force_change = force_change_liu2015
 
 
 @device

@@ -20,7 +20,7 @@ from dilatedem.contact.liu2015.patch import (
 from dilatedem.contact.pressed import Pressed
 from dilatedem.jit import device, item
 from dilatedem.numerics.vector import dot, sub
-from dilatedem.state.response import reduced_mass, relative_velocity
+from dilatedem.state.response import mobility, reduced_mass, relative_velocity
 
 #: shape factor of a polygonal face, Liu 2015 below Eq. (24)
 BETA = 1.02
@@ -101,6 +101,50 @@ def _law_gain(pairs, k, dt, mode, overlap, stiffness, exponent, elastic, elastic
 
 
 @item
+def _law_at(k, shapes, vertex, face_normal, solids, pairs, offset, normal, pa, pb, overlap, crushed, scratch):
+    """Mode of contact k at a pose, point of application, overlap there [m], size, K [N/m^kappa] and kappa.
+
+    Arguments as of `press_liu2015`; overlap [m]: the deepest, where a has lost the depth `crushed` [m].
+    """
+    a, b = pairs.a[k], pairs.b[k]
+    mode, a_lower, point, overlap, size, sine = patch_of(
+        vertex, face_normal, shapes, pairs.corners[k], pairs.corner_a[k], pairs.corner_b[k], a, b, offset, normal, pa, pb,
+        overlap, crushed, scratch,
+    )  # fmt: skip
+    first, second = shapes.radius[a], radius_under(shapes, vertex, b, sub(point, offset))
+    if not a_lower:
+        first, second = second, first
+    modulus = 1.0 / (solids.compliance[a] + solids.compliance[b])
+    stiffness, exponent = normal_stiffness(mode, modulus, first, second, size, sine)
+    return mode, point, overlap, size, stiffness, exponent
+
+
+@device
+def force_change_liu2015(contact, k, shapes, vertex, face_normal, solids, pairs, offset, normal, pa, pb, gap, scratch):
+    """By how much [N] the elastic force of contact k at a pose differs from what it is now; nothing is written.
+
+    Arguments as of `press_liu2015`.
+    """
+    _, _, overlap, _, stiffness, exponent = _law_at(
+        k, shapes, vertex, face_normal, solids, pairs, offset, normal, pa, pb, -gap, worn(contact, k, pairs), scratch
+    )
+    now = pairs.stiffness[k] * power(pairs.overlap[k], pairs.exponent[k])
+    return abs(stiffness * power(overlap, exponent) - now)
+
+
+@device
+def _jump_gain(k, dt, jump, solids, bodies, pairs, point, arm, normal):
+    """Energy [J] that contact k makes in a step in which its force jumps by `jump` [N], beside what trapezoids in time tell.
+
+    Those see the velocity that the step predicts, by the force at its start. That of the bodies has half a kick by the force at its
+    end, too: jump^2 dt^2/(4 m') more in all (docs/theory.md, the energy ledger).
+    """
+    q = bodies.orientation
+    give = mobility(pairs.a[k], solids, q, point, normal) + mobility(pairs.b[k], solids, q, arm, normal)
+    return 0.25 * give * (dt * jump) ** 2
+
+
+@item
 def press_liu2015(contact, k, dt, shapes, vertex, face_normal, solids, bodies, pairs, offset, normal, pa, pb, gap, scratch):
     """The normal part of contact k by the paper's laws, as `Pressed`. Writes the memory of its law, and the tangent.
 
@@ -109,17 +153,11 @@ def press_liu2015(contact, k, dt, shapes, vertex, face_normal, solids, bodies, p
     a, b = pairs.a[k], pairs.b[k]
     crushed = worn(contact, k, pairs)
     whole = crushed - gap  # overlap of what has not crushed [m]
-    modulus = 1.0 / (solids.compliance[a] + solids.compliance[b])
     search, found, settled = UNTRIED, WHOLE, False
     while not settled:
-        mode, a_lower, point, overlap, size, sine = patch_of(
-            vertex, face_normal, shapes, pairs.corners[k], pairs.corner_a[k], pairs.corner_b[k], a, b, offset, normal, pa, pb,
-            whole - crushed, crushed, scratch,
-        )  # fmt: skip
-        first, second = shapes.radius[a], radius_under(shapes, vertex, b, sub(point, offset))
-        if not a_lower:
-            first, second = second, first
-        stiffness, exponent = normal_stiffness(mode, modulus, first, second, size, sine)
+        mode, point, overlap, size, stiffness, exponent = _law_at(
+            k, shapes, vertex, face_normal, solids, pairs, offset, normal, pa, pb, whole - crushed, crushed, scratch
+        )
         velocity = relative_velocity(bodies.velocity, bodies.angular_velocity, a, b, point, sub(point, offset))
         approach = -dot(velocity, normal)
         mass = reduced_mass(a, b, solids)
@@ -137,6 +175,9 @@ def press_liu2015(contact, k, dt, shapes, vertex, face_normal, solids, bodies, p
     gain = 0.0
     if pairs.overlap[k] > 0.0:
         gain = _law_gain(pairs, k, dt, mode, overlap, stiffness, exponent, elastic, elastic_power, found.lost)
+        if mode != pairs.mode[k]:
+            jump = normal_force - pairs.normal_force[k]
+            gain += _jump_gain(k, dt, jump, solids, bodies, pairs, point, sub(point, offset), normal)
     pairs.stiffness[k] = stiffness
     pairs.exponent[k] = exponent
     pairs.tangent[k] = exponent * stiffness * power(overlap, exponent - 1.0)
