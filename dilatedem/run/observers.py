@@ -10,6 +10,7 @@ from dilatedem.case import write
 from dilatedem.case.schema import Case
 from dilatedem.errors import Interrupted
 from dilatedem.files.atomic import write_text
+from dilatedem.garbage import hand_back
 from dilatedem.output import checkpoint, folder
 from dilatedem.output.background import Background
 from dilatedem.output.energies import Energies
@@ -251,6 +252,7 @@ class RunFolder:
         """In the background. What it counts on is on the disk before it."""
         kept = {observer.name: kept[observer.name] | observer.settle() for observer in self._observers}
         checkpoint.save(self._out / file, groups, meta | {"observers": kept})
+        hand_back()
 
     def _write_summary(self, status: str, message: str) -> None:
         simulation, told = self._simulation, {}
