@@ -17,7 +17,7 @@ RISE = 240.0
 BLOCK = 70.0
 QUARTERS = 4
 #: m, x between which the ice upstream is weighed, and snapshots before and after one that are weighed with it
-BAND, BESIDE = (-25.0, -17.0), 3
+BAND, BESIDE = (-40.0, -25.0), 3
 #: significant digits that are kept
 DIGITS = 6
 
