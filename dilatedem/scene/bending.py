@@ -10,6 +10,7 @@ from dilatedem.deformation.elements import Material
 from dilatedem.deformation.kept import modes_of
 from dilatedem.deformation.lattice import lattice_of
 from dilatedem.deformation.skin import Skin, face_motion, skin_of, surface_stress
+from dilatedem.deformation.stress import COLUMN, ROW
 from dilatedem.errors import CaseError
 from dilatedem.geometry.polyhedron import Polyhedron
 from dilatedem.geometry.shapes import Shapes
@@ -45,16 +46,18 @@ def bent_solids(case: Case, scene: Scene, solids: Solids, shapes: Shapes) -> Sol
     counts[np.setdiff1d(np.arange(len(counts)), list(bent))] = 0
     if not bent:
         raise CaseError("no floe can bend: make deformation.mesh_size smaller")
-    square, damping, reach = (np.zeros((len(counts), most)) for _ in range(3))
-    gradient = np.zeros((len(counts), most, 3, 3))
+    frequency, damping, reach = (np.zeros((len(counts), most)) for _ in range(3))
+    change = np.zeros((len(counts), most, 6))
     for number, (_, modes, _) in bent.items():
         k = modes.count
-        square[number, :k] = modes.frequency**2
+        frequency[number, :k] = modes.frequency
         damping[number, :k] = 2.0 * case.deformation.damping * modes.frequency
         reach[number, :k] = np.sqrt((modes.shape**2).sum(axis=2).max(axis=1))
-        gradient[number, :k] = modes.inertia_gradient
-    arrays = {"mode_count": counts, "mode_square": square, "mode_damping": damping, "mode_reach": reach}
-    arrays["inertia_gradient"] = gradient
+        turn = solids.inverse_inertia[number]
+        change[number, :k] = -(turn @ modes.inertia_gradient @ turn)[:, ROW, COLUMN]
+    arrays = {"mode_count": counts, "mode_frequency": frequency, "mode_square": frequency**2, "mode_damping": damping}
+    arrays |= {"mode_reach": reach, "rest_inertia": solids.inverse_inertia[:, ROW, COLUMN], "inertia_change": change}
+    arrays |= {"swing": np.zeros((len(counts), 5, most)), "swing_time": np.zeros(len(counts))}
     arrays |= _lattices(bent, len(counts)) | _faces(shapes, bent, most) | _skins(bent, len(counts), most)
     arrays |= _stresses(bent, len(counts), most)
     return ModalSolids(*solids, **arrays, strength=np.full(len(counts), case.ice.flexural_strength))
@@ -117,7 +120,7 @@ def _stresses(bent: dict[int, Bent], count: int, most: int) -> dict[str, np.ndar
 
 def _widened(values: np.ndarray, most: int, name: str) -> np.ndarray:
     """Values of the modes of a body, with zeros for those that others have."""
-    axes = {"first": (1,), "moment": (1,), "second": (1, 2), "shape": (1,)}.get(name, ())
+    axes = {"first": (1,), "outward": (1,), "moment": (1,), "second": (1, 2), "shape": (1,)}.get(name, ())
     return np.pad(values, [(0, most - size if axis in axes else 0) for axis, size in enumerate(values.shape)])
 
 
