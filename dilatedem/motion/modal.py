@@ -20,7 +20,7 @@ from dilatedem.state.response import bulge
 #: half the angle [rad] that a mode swings by in a step, at most
 WIDEST = 1.0
 #: rows of `ModalSolids.swing`
-TURN, FORTH, BACK, KICK, KEPT = 0, 1, 2, 3, 4
+TURN, FORTH, BACK, KICK, KEPT, SLACK, BY_RATE, BY_PLACE = 0, 1, 2, 3, 4, 5, 6, 7
 
 
 @item
@@ -41,6 +41,11 @@ def _set_swing(i, dt, solids):
         swing[i, BACK, m] = -2.0 * t * unit * frequency
         swing[i, KICK, m] = t / frequency
         swing[i, KEPT, m] = 1.0 / (1.0 + z * (1.0 + z / 2.0 * (1.0 + z / 3.0 * (1.0 + z / 4.0))))
+        slowness = 1.0 / frequency
+        # no farther than to the other side of where it would rest, nor faster than by there
+        swing[i, SLACK, m] = slowness * slowness
+        swing[i, BY_PLACE, m] = min(2.0, dt * frequency) * solids.mode_reach[i, m]
+        swing[i, BY_RATE, m] = swing[i, BY_PLACE, m] * slowness
     solids.swing_time[i] = dt
 
 
@@ -71,13 +76,15 @@ def _set_inertia(i, solids, six):
 
 @item
 def _travel_bending(i, dt, solids, bodies, reach, frame):
-    if solids.mode_count[i] > 0 and solids.swing_time[i] == 0.0:
-        _set_inertia(i, solids, _bent_inertia(i, solids, bodies))  # a run that is resumed has that of the unbent body
+    if solids.mode_count[i] > 0:
+        if solids.swing_time[i] == 0.0:
+            _set_inertia(i, solids, _bent_inertia(i, solids, bodies))  # a run that is resumed has that of the unbent body
+        if solids.swing_time[i] != dt:
+            _set_swing(i, dt, solids)
     moved = integrate.travel(i, dt, solids, bodies, reach, frame)
-    for m in range(solids.mode_count[i]):  # no farther than to the other side of where it would rest, nor faster than by there
-        slowness, load_on = 1.0 / solids.mode_frequency[i, m], bodies.mode_force[i, m]
-        wide = abs(bodies.rate[i, m]) * slowness + abs(bodies.coordinate[i, m] - load_on * slowness * slowness)
-        moved += min(2.0, dt * solids.mode_frequency[i, m]) * wide * solids.mode_reach[i, m]
+    for m in range(solids.mode_count[i]):
+        aside = abs(bodies.coordinate[i, m] - bodies.mode_force[i, m] * solids.swing[i, SLACK, m])
+        moved += abs(bodies.rate[i, m]) * solids.swing[i, BY_RATE, m] + aside * solids.swing[i, BY_PLACE, m]
     return moved
 
 

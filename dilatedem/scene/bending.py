@@ -56,11 +56,32 @@ def bent_solids(case: Case, scene: Scene, solids: Solids, shapes: Shapes) -> Sol
         turn = solids.inverse_inertia[number]
         change[number, :k] = -(turn @ modes.inertia_gradient @ turn)[:, ROW, COLUMN]
     arrays = {"mode_count": counts, "mode_frequency": frequency, "mode_square": frequency**2, "mode_damping": damping}
-    arrays |= {"mode_reach": reach, "rest_inertia": solids.inverse_inertia[:, ROW, COLUMN], "inertia_change": change}
-    arrays |= {"swing": np.zeros((len(counts), 5, most)), "swing_time": np.zeros(len(counts))}
-    arrays |= _lattices(bent, len(counts)) | _faces(shapes, bent, most) | _skins(bent, len(counts), most)
+    faces = _faces(shapes, bent, most)
+    arrays |= {"mode_reach": reach, "mode_mobility": _mobility(shapes, faces, bent, len(counts))}
+    arrays |= {"rest_inertia": np.ascontiguousarray(solids.inverse_inertia[:, ROW, COLUMN]), "inertia_change": change}
+    arrays |= {"swing": np.zeros((len(counts), 8, most)), "swing_time": np.zeros(len(counts))}
+    arrays |= _lattices(bent, len(counts)) | faces | _skins(bent, len(counts), most)
     arrays |= _stresses(bent, len(counts), most)
     return ModalSolids(*solids, **arrays, strength=np.full(len(counts), case.ice.flexural_strength))
+
+
+def _mobility(shapes: Shapes, faces: dict[str, np.ndarray], bent: dict[int, Bent], count: int) -> np.ndarray:
+    """(count,) 1/kg: how modes give way at most to a push on a face at one of its corners, smaller faces by as much less as
+    they are softer."""
+    most = np.zeros(count)
+    for number in bent:
+        found = []
+        for face in range(shapes.face_start[number], shapes.face_start[number + 1]):
+            loop = shapes.vertex[shapes.loop[shapes.loop_start[face] : shapes.loop_start[face + 1]]]
+            arm, own = loop - faces["face_centre"][face], faces["face_shape"][face]
+            moved = own[:, None, :3] + np.cross(own[:, None, 3:], arm)
+            wide = np.cross(loop - loop[0], np.roll(loop, -1, axis=0) - loop[0]).sum(axis=0)
+            found.append(((moved @ shapes.face_normal[face]) ** 2).sum(axis=0).max() * np.array([1.0, (wide**2).sum() ** 0.25]))
+        if found:
+            found = np.array(found)
+            largest = (found[:, 1] / found[:, 0]).max()
+            most[number] = (found[:, 1] / largest).max()
+    return most
 
 
 def _lattices(bent: dict[int, Bent], count: int) -> dict[str, np.ndarray]:

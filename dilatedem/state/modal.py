@@ -22,7 +22,8 @@ ModalSolids = NamedTuple("ModalSolids", [
     ("mode_reach", np.ndarray),  # (n, m) 1/sqrt(kg), the largest displacement of the shape
     ("rest_inertia", np.ndarray),  # (n, 6) 1/(kg m2), inverse inertia of the unbent body: xx, yy, zz, yz, zx, xy
     ("inertia_change", np.ndarray),  # (n, m, 6) 1/(kg^1.5 m3), of that by the coordinate
-    ("swing", np.ndarray),  # (n, 5, m) how modes swing in a step as long as the last one: see `motion.modal`
+    ("mode_mobility", np.ndarray),  # (n,) 1/kg, with which the modes give way at most to a push on a corner of the core
+    ("swing", np.ndarray),  # (n, 8, m) how modes swing in a step as long as the last one: see `motion.modal`
     ("swing_time", np.ndarray),  # (n,) s, how long that was; 0: none yet
     ("lattice_start", np.ndarray),  # (n,)
     ("lattice_size", np.ndarray),  # (n, 3) places along each axis

@@ -89,13 +89,12 @@ def _awash(i, f, z, up, facing, weight, solids, bodies, push, row, spread):
 
 
 @item
-def _float(i, setting, solids, bodies, push, row, spread):
+def _float(i, R, setting, solids, bodies, push, row, spread):
     """Energy [J], force upwards [N] and torque in the frame of body i [N m] by which its bent surface differs from the unbent one.
 
     Loads on modes are added to `push[row]`; to `spread` (m, 3) what of the shapes is wet. Returns the wet area [m2] with them.
     """
-    q, weight = bodies.orientation, setting.water_density * setting.gravity
-    up, z = rotation_matrix(q[i, 0], q[i, 1], q[i, 2], q[i, 3])[2], bodies.position[i, 2]
+    up, z, weight = R[2], bodies.position[i, 2], setting.water_density * setting.gravity
     out, energy, lift, slope, wet = bulge(i, solids, bodies), 0.0, 0.0, NONE, 0.0
     for f in range(solids.skin_face[i], solids.skin_face[i + 1]):
         normal = load(solids.skin_normal, f)
@@ -143,7 +142,7 @@ def _bent(i, dt, time, setting, hulls, solids, bodies, workspace, force, torque)
     for m in range(solids.mode_count[i]):
         store(spread, m, NONE)
     if setting.water:
-        _, lift, turn, wet = _float(i, setting, solids, bodies, bodies.mode_load, i, spread)
+        _, lift, turn, wet = _float(i, R, setting, solids, bodies, bodies.mode_load, i, spread)
         force, torque = add(force, (0.0, 0.0, lift)), add(torque, to_world(R, turn))
         dragged = drag(i, time, setting, hulls, solids, bodies, workspace.wet)[0]
         _spread_over(i, DRAG, dragged, spread, 1.0 / wet if wet > 0.0 else 0.0, dt, R, solids, bodies)
@@ -169,7 +168,9 @@ def _no_change(i, setting, solids, bodies, workspace):
 def _change_of_buoyancy(i, setting, solids, bodies, workspace):
     if solids.mode_count[i] == 0:
         return 0.0
-    return _float(i, setting, solids, bodies, workspace.mode_idle, 0, workspace.spread[i])[0]
+    q = bodies.orientation
+    R = rotation_matrix(q[i, 0], q[i, 1], q[i, 2], q[i, 3])
+    return _float(i, R, setting, solids, bodies, workspace.mode_idle, 0, workspace.spread[i])[0]
 
 
 #: bent_loads(i, dt, time, setting, hulls, solids, bodies, workspace, force, torque): all loads on body i but contacts', as it is
