@@ -140,6 +140,16 @@ def _carry(block, side, i, lever, face, covered, solids, bodies, workspace):
 
 
 @item
+def _softness(block, side, i, normal, solids, bodies, workspace):
+    """1/m' [1/kg] with which the modes of body i give way to a push along the normal on its seat."""
+    q, shape, total = bodies.orientation, workspace.shape[block], 0.0
+    own = to_body(rotation_matrix(q[i, 0], q[i, 1], q[i, 2], q[i, 3]), normal)
+    for m in range(solids.mode_count[i]):
+        total += (shape[side, m, 0] * own[0] + shape[side, m, 1] * own[1] + shape[side, m, 2] * own[2]) ** 2
+    return total
+
+
+@item
 def _push_modes(block, side, i, k, force, torque, solids, bodies, workspace):
     """What a wrench on the carried body i, at its centroid, does to its modes; returns the sum of its squares."""
     q, shape, push = bodies.orientation, workspace.shape[block], workspace.mode_push
@@ -194,6 +204,9 @@ def _look(block, k, dt, shapes, solids, bodies, pairs, contact, surroundings, wo
                 point, arm = middle, sub(middle, offset)
     _carry(block, 0, a, point, face_a, covered_a, solids, bodies, workspace)
     _carry(block, 1, b, arm, face_b, covered_b, solids, bodies, workspace)
+    if pairs.overlap[k] <= 0.0:  # a dashpot that meets modes for the first time must not be made for the whole mass
+        pairs.yields[k] = _softness(block, 0, a, normal, solids, bodies, workspace)
+        pairs.yields[k] += _softness(block, 1, b, normal, solids, bodies, workspace)
     vertex, face_normal, seat = workspace.bent_vertex[block], workspace.bent_face_normal[block], workspace.seat[block]
     seen = ModalBodies(
         workspace.bent_position[block], workspace.bent_orientation[block], workspace.bent_velocity[block],
@@ -245,7 +258,7 @@ def _meet_bent(block, k, dt, shapes, solids, bodies, pairs, contact, surrounding
     elif seat != pairs.seat[k]:
         cost, stored = pairs.cost[k], pairs.stored[k]
         damping, friction, crushing, made = cost[LOSS_DAMPING], cost[LOSS_FRICTION], cost[LOSS_CRUSHING], cost[GAIN_LAW]
-        pairs.seat[k] = seat
+        pairs.seat[k], pairs.yields[k] = seat, 4.0 * pairs.yields[k]  # its lever may be longer: a dashpot too weak, not too strong
         _look(block, k, 0.0, shapes, solids, bodies, pairs, contact, surroundings, workspace)
         made += (pairs.stored[k] if pairs.overlap[k] > 0.0 else 0.0) - stored
         cost[LOSS_DAMPING], cost[LOSS_FRICTION], cost[LOSS_CRUSHING], cost[GAIN_LAW] = damping, friction, crushing, made

@@ -200,16 +200,6 @@ def _out(i, solids, bodies):
 
 
 @item
-def _stiff(k, solids, pairs):
-    return 0.0
-
-
-@item
-def _yielding(k, solids, pairs):
-    return pairs.yields[k]
-
-
-@item
 def _same(k, solids, pairs, opening):
     return opening
 
@@ -244,8 +234,6 @@ sum_pushes = by_type(_sum_nothing, {ModalSolids: _sum_pushes}, at=4)
 shake = by_type(_rigid, {ModalSolids: _shake}, at=1)
 #: bent_by(i, solids, bodies): how far [m] any point of body i is from where it is unbent, at most
 bent_by = by_type(_rigid, {ModalSolids: _out}, at=1)
-#: yielding(k, solids, pairs): 1/m' [1/kg] with which the modes of both bodies give way to the contact of pair k
-yielding = by_type(_stiff, {ModalSolids: _yielding}, at=1)
 #: opening_of(k, solids, pairs, opening): how fast [m/s] contact k opens or deepens, from what its bodies as a whole do
 opening_of = by_type(_same, {ModalSolids: _opening}, at=1)
 #: modal_energy(i, solids, bodies): kinetic and elastic energy [J] of the modes of body i.

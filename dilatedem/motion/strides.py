@@ -19,10 +19,10 @@ from dilatedem.contact.collide import gap_between
 from dilatedem.contact.turning import turn_shape
 from dilatedem.jit import device, item
 from dilatedem.motion.integrate import place_ahead
-from dilatedem.motion.modal import bent_by, opening_of, shake, yielding
+from dilatedem.motion.modal import bent_by, opening_of, shake
 from dilatedem.numerics.vector import dot, load, sub
 from dilatedem.state.clock import NEVER
-from dilatedem.state.response import is_free, is_joined, mobility, relative_velocity, stride_of
+from dilatedem.state.response import is_free, is_joined, mobility, relative_velocity, stride_of, yielding
 
 #: share of its overlap by which a contact may deepen or open in a stride
 MOST_CHANGE = 0.3

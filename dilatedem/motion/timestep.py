@@ -12,12 +12,11 @@ import numpy as np
 from dilatedem.contact.laws import law_of
 from dilatedem.contact.search.neighbours import SKIN, USABLE
 from dilatedem.jit import item
-from dilatedem.motion.modal import yielding
 from dilatedem.motion.paces import LONGEST_MOVE
 from dilatedem.numerics.blocks import take
 from dilatedem.numerics.plain import dot, norm, nth_root, turned
 from dilatedem.numerics.vector import load
-from dilatedem.state.response import gives_way, mobility
+from dilatedem.state.response import gives_way, mobility, yielding
 from dilatedem.water.loads import fastest_water
 
 #: impact speed, as a share of sqrt(gravity x reach), for which contacts are laid out where nothing moves yet
@@ -33,10 +32,10 @@ AT_ONCE = 4096
 def critical_step(model, bodies, only=None) -> float:
     """Time step [s] to stay well below, estimated for one face and one corner contact of every body; docs/theory.md has its limits.
 
-    A pair's 1/m_eff is the sum over both bodies, so omega^2 = k/m_eff is at most twice the largest k/m' of one body, with 1/m'
-    = 1/m + (r x n).I^-1.(r x n) at the worst corner, and what modes give way by; damping shortens the step by sqrt(1 + xi^2) -
-    xi, xi the damping
-    coefficient. Friction springs, crossing edges and contacts that act together are left to the share of it that is taken.
+    A pair's 1/m_eff is the sum over both bodies, so omega^2 = k/m_eff is at most twice the largest k/m' of one body, with 1/m' =
+    1/m + (r x n).I^-1.(r x n) at the worst corner, and what modes give way by; damping shortens the step by sqrt(1 + xi^2) - xi,
+    xi the damping coefficient. Friction springs, crossing edges and contacts that act together are left to the share of it that
+    is taken.
     Infinite where nothing can move. only: numbers of the bodies that count, all unless given.
     """
     shapes, solids, damping, law = model.shapes, model.solids, model.contact.damping, law_of(model.contact)
