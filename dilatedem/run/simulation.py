@@ -25,7 +25,7 @@ from dilatedem.run.hits import hit_log, hits_at_start
 from dilatedem.run.pace import STRIDE_PHASE, free_span, time_step
 from dilatedem.run.views import Floes, Structures
 from dilatedem.scene.arrays import build_model, initial_bodies, initial_excursions
-from dilatedem.scene.bending import bent_bodies
+from dilatedem.scene.bending import bent_again
 from dilatedem.scene.entering import Entering
 from dilatedem.scene.inflow import strips_at_start
 from dilatedem.scene.overlaps import require_apart
@@ -188,7 +188,7 @@ class Simulation:
     @cached_property
     def bent(self) -> dict[int, Bent]:
         """The bodies that bend, by number."""
-        return bent_bodies(self.case, self.scene, self.model.solids.mode_count)
+        return bent_again(self.case, self.scene, self.model.solids)
 
     @property
     def time(self) -> float:

@@ -9,6 +9,7 @@ from dilatedem.deformation.bent import Bent
 from dilatedem.deformation.elements import Material
 from dilatedem.deformation.kept import modes_of
 from dilatedem.deformation.lattice import lattice_of
+from dilatedem.deformation.modes import STRAINS
 from dilatedem.deformation.skin import Skin, face_motion, skin_of, surface_stress
 from dilatedem.deformation.stress import COLUMN, ROW
 from dilatedem.errors import CaseError
@@ -34,6 +35,11 @@ def bent_bodies(case: Case, scene: Scene, counts: np.ndarray) -> dict[int, Bent]
     return {number: bent for number, bent in sorted(found.items()) if bent}
 
 
+def bent_again(case: Case, scene: Scene, solids: ModalSolids) -> dict[int, Bent]:
+    """The bodies that bend, as `bent_solids` found them."""
+    return bent_bodies(case, scene, np.maximum(solids.mode_count - (STRAINS if case.deformation.strains else 0), 0))
+
+
 def bent_solids(case: Case, scene: Scene, solids: Solids, shapes: Shapes) -> Solids | ModalSolids:
     """The same bodies with their modes; `solids` itself where none has any. Raises CaseError for one that has none to have."""
     counts = _counts(case, scene, solids)
@@ -41,9 +47,11 @@ def bent_solids(case: Case, scene: Scene, solids: Solids, shapes: Shapes) -> Sol
         if case.bends:
             raise CaseError("deformation.modes: no body can bend: each is held, or has modes = 0 of its own")
         return solids
-    most = int(counts.max())
     bent = bent_bodies(case, scene, counts)
-    counts[np.setdiff1d(np.arange(len(counts)), list(bent))] = 0
+    counts[:] = 0
+    for number, found in bent.items():
+        counts[number] = found.modes.count
+    most = int(counts.max())
     if not bent:
         raise CaseError("no floe can bend: make deformation.mesh_size smaller")
     frequency, damping, reach = (np.zeros((len(counts), most)) for _ in range(3))
@@ -73,7 +81,7 @@ def _mobility(shapes: Shapes, faces: dict[str, np.ndarray], bent: dict[int, Bent
         found = []
         for face in range(shapes.face_start[number], shapes.face_start[number + 1]):
             loop = shapes.vertex[shapes.loop[shapes.loop_start[face] : shapes.loop_start[face + 1]]]
-            arm, own = loop - faces["face_centre"][face], faces["face_shape"][face]
+            arm, own = loop - loop.mean(axis=0), faces["face_shape"][face]
             moved = own[:, None, :3] + np.cross(own[:, None, 3:], arm)
             wide = np.cross(loop - loop[0], np.roll(loop, -1, axis=0) - loop[0]).sum(axis=0)
             found.append(((moved @ shapes.face_normal[face]) ** 2).sum(axis=0).max() * np.array([1.0, (wide**2).sum() ** 0.25]))
@@ -102,12 +110,12 @@ def _lattices(bent: dict[int, Bent], count: int) -> dict[str, np.ndarray]:
 
 
 def _faces(shapes: Shapes, bent: dict[int, Bent], most: int) -> dict[str, np.ndarray]:
-    """Middle of each face of the cores, and how it moves with each of up to `most` modes."""
+    """Middle of each face, and how it moves with each of up to `most` modes: those of the cores, moved out to the surface."""
     centre, moved = np.zeros((len(shapes.face_normal), 3)), np.zeros((len(shapes.face_normal), most, 6))
     for number, (_, _, lattice) in bent.items():
         for face in range(shapes.face_start[number], shapes.face_start[number + 1]):
             loop = shapes.vertex[shapes.loop[shapes.loop_start[face] : shapes.loop_start[face + 1]]]
-            centre[face], own = face_motion(loop, lattice)
+            centre[face], own = face_motion(loop + shapes.radius[number] * shapes.face_normal[face], lattice)
             moved[face, : len(own)] = own
     return {"face_centre": centre, "face_shape": moved}
 
@@ -171,7 +179,7 @@ def _bent(case: Case, scene: Scene, number: int, outer: Polyhedron, count: int) 
     sizes = case.deformation.mesh_size * SMALLER ** np.arange(TRIES)
     for size in sizes.tolist():
         try:
-            modes = modes_of(outer, material, size, count)
+            modes = modes_of(outer, material, size, count, case.deformation.strains)
             break
         except ValueError as fault:
             if size > sizes[-1]:
