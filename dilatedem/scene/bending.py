@@ -16,6 +16,7 @@ from dilatedem.errors import CaseError
 from dilatedem.geometry.polyhedron import Polyhedron
 from dilatedem.geometry.shapes import Shapes
 from dilatedem.numerics.blocks import offsets
+from dilatedem.numerics.plain import dot, turned
 from dilatedem.scene.place import Scene
 from dilatedem.state.bodies import Solids
 from dilatedem.state.modal import ModalSolids
@@ -62,7 +63,7 @@ def bent_solids(case: Case, scene: Scene, solids: Solids, shapes: Shapes) -> Sol
         damping[number, :k] = 2.0 * case.deformation.damping * modes.frequency
         reach[number, :k] = np.sqrt((modes.shape**2).sum(axis=2).max(axis=1))
         turn = solids.inverse_inertia[number]
-        change[number, :k] = -(turn @ modes.inertia_gradient @ turn)[:, ROW, COLUMN]
+        change[number, :k] = -turned(turn, turned(turn, modes.inertia_gradient).transpose(0, 2, 1))[:, ROW, COLUMN]
     arrays = {"mode_count": counts, "mode_frequency": frequency, "mode_square": frequency**2, "mode_damping": damping}
     faces = _faces(shapes, bent, most)
     arrays |= {"mode_reach": reach, "mode_mobility": _mobility(shapes, faces, bent, len(counts))}
@@ -84,7 +85,7 @@ def _mobility(shapes: Shapes, faces: dict[str, np.ndarray], bent: dict[int, Bent
             arm, own = loop - loop.mean(axis=0), faces["face_shape"][face]
             moved = own[:, None, :3] + np.cross(own[:, None, 3:], arm)
             wide = np.cross(loop - loop[0], np.roll(loop, -1, axis=0) - loop[0]).sum(axis=0)
-            found.append(((moved @ shapes.face_normal[face]) ** 2).sum(axis=0).max() * np.array([1.0, (wide**2).sum() ** 0.25]))
+            found.append((dot(moved, shapes.face_normal[face]) ** 2).sum(axis=0).max() * np.array([1.0, (wide**2).sum() ** 0.25]))
         if found:
             found = np.array(found)
             largest = (found[:, 1] / found[:, 0]).max()
