@@ -15,4 +15,7 @@ class Deformation(Table):
 
     modes: Annotated[int, Field(ge=0, le=MOST_MODES)] = key(0, "", "Modes of each body that is not held; 0: it is rigid.")
     damping: Annotated[float, Field(ge=0, lt=1)] = key(0.02, "", "Damping ratio of every mode.")
+    strains: bool = key(
+        False, "", "Whether the six shapes of uniform strain are added to the modes: pressed faces then give way as far as they do."
+    )
     mesh_size: Positive = key(0.25, "m", "Size of the finite elements that modes are found with.")

@@ -94,6 +94,15 @@ def gap_between(k, shapes, vertex, face_normal, position, pairs, contact, surrou
 
 
 @item
+def keep_apart(k, gap, normal, pa, arm, reach, solids, bodies, pairs, contact):
+    """Have pair k, which does not touch, sleep until its gap [m] could be closed; pa, arm: nearest points from the centroids."""
+    gap = remember(contact, k, gap, reach, bodies, pairs, pa)
+    pairs.wake[k] = bodies.path[pairs.a[k]] + bodies.path[pairs.b[k]] + gap
+    store(pairs.normal, k, normal)
+    note_nearest(k, solids, pairs, pa, arm)
+
+
+@item
 def collide(k, dt, shapes, vertex, face_normal, solids, bodies, pairs, contact, surroundings, scratch):
     """Evaluate pair k at this instant; writes its rows of `pairs` and nothing else.
 
@@ -102,10 +111,7 @@ def collide(k, dt, shapes, vertex, face_normal, solids, bodies, pairs, contact, 
     """
     gap, offset, normal, pa, pb, reach = gap_between(k, shapes, vertex, face_normal, bodies.position, pairs, contact, surroundings)
     if gap >= 0.0:
-        gap = remember(contact, k, gap, reach, bodies, pairs, pa)
-        pairs.wake[k] = bodies.path[pairs.a[k]] + bodies.path[pairs.b[k]] + gap
-        store(pairs.normal, k, normal)
-        note_nearest(k, solids, pairs, pa, sub(pb, offset))
+        keep_apart(k, gap, normal, pa, sub(pb, offset), reach, solids, bodies, pairs, contact)
         if pairs.overlap[k] > 0.0:
             _end_contact(pairs, k, dt)
         return

@@ -6,8 +6,9 @@ from dilatedem.numerics.rotation import rotation_matrix, to_body
 from dilatedem.numerics.vector import add, along, dot, load, scale, tangents
 
 NONE = (0.0, 0.0, 0.0)
-#: shares of a face from which on the other one counts as lying on it at all, and on all of it
-SOME, MOST = 0.5, 0.9
+#: shares of a face from which on the other one counts as lying on it at all, and on all of it: over more of a face than the latter
+#: what bodies do at one point of it says too little
+SOME, MOST = 0.1, 0.4
 
 
 @item

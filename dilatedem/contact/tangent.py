@@ -9,7 +9,7 @@ that varies linearly over it does the same work. Else Xc goes with the point of 
 points differ by the strain between them, which across a free surface is none.
 """
 
-from dilatedem.contact.collide import collide, separation
+from dilatedem.contact.collide import collide, gap_between, keep_apart, separation
 from dilatedem.contact.shared_face import face_towards, shared_part
 from dilatedem.contact.turning import turn_shape
 from dilatedem.jit import by_type, item
@@ -23,6 +23,9 @@ from dilatedem.state.response import bulge
 FACE_FACE = int(Mode.FACE_FACE)
 #: what a pair's bodies are carried at, in `Pairs.seat`
 AT_POINT, AT_FACES = 0, 1
+#: how much more modes are taken to give way at a seat where nobody has looked yet than at the last one, whose lever may be
+#: shorter: a dashpot made for the mass of the last one could be too strong
+RESEATED = 4.0
 NONE = (0.0, 0.0, 0.0)
 
 
@@ -33,12 +36,9 @@ def _spline(u):
 
 
 @item
-def _shapes_at(i, point, solids, shape, side):
-    """Write displacement and turning, 1/2 curl, of each mode of body i at a point of its frame to shape[side, m]."""
+def _shapes_at(block, i, point, solids, workspace, side):
+    """Write displacement and turning, 1/2 curl, of each mode of body i at a point of its frame to a side of `shape`."""
     modes, size, pace = solids.mode_count[i], solids.lattice_size, solids.lattice_pace
-    for m in range(modes):
-        for c in range(6):
-            shape[side, m, c] = 0.0
     sx, sy, sz = (
         (point[0] - solids.lattice_origin[i, 0]) * pace[i, 0],
         (point[1] - solids.lattice_origin[i, 1]) * pace[i, 1],
@@ -48,23 +48,33 @@ def _shapes_at(i, point, solids, shape, side):
     jy = min(max(int(round(sy)), 1), size[i, 1] - 2)
     jz = min(max(int(round(sz)), 1), size[i, 2] - 2)
     (wx, dx), (wy, dy), (wz, dz) = _spline(sx - jx), _spline(sy - jy), _spline(sz - jz)
+    weight, shape, values = workspace.spline[block], workspace.shape[block], solids.lattice
     for p in range(3):
         for q in range(3):
+            over, gx, gy = wx[p] * wy[q], 0.5 * pace[i, 0] * dx[p] * wy[q], 0.5 * pace[i, 1] * wx[p] * dy[q]
             for r in range(3):
-                weight = wx[p] * wy[q] * wz[r]
-                gx = 0.5 * pace[i, 0] * dx[p] * wy[q] * wz[r]
-                gy = 0.5 * pace[i, 1] * wx[p] * dy[q] * wz[r]
-                gz = 0.5 * pace[i, 2] * wx[p] * wy[q] * dz[r]
-                place = ((jx - 1 + p) * size[i, 1] + jy - 1 + q) * size[i, 2] + jz - 1 + r
-                row = solids.lattice_start[i] + place * modes
-                for m in range(modes):
-                    x, y, z = load(solids.lattice, row + m)
-                    shape[side, m, 0] += weight * x
-                    shape[side, m, 1] += weight * y
-                    shape[side, m, 2] += weight * z
-                    shape[side, m, 3] += gy * z - gz * y
-                    shape[side, m, 4] += gz * x - gx * z
-                    shape[side, m, 5] += gx * y - gy * x
+                place = (p * 3 + q) * 3 + r
+                weight[place, 0], weight[place, 1] = over * wz[r], gx * wz[r]
+                weight[place, 2], weight[place, 3] = gy * wz[r], 0.5 * pace[i, 2] * over * dz[r]
+    corner = solids.lattice_start[i] + (((jx - 1) * size[i, 1] + jy - 1) * size[i, 2] + jz - 1) * modes
+    along_y, along_x = size[i, 2] * modes, size[i, 1] * size[i, 2] * modes
+    for m in range(modes):
+        ux = uy = uz = tx = ty = tz = 0.0
+        for p in range(3):
+            for q in range(3):
+                row = corner + p * along_x + q * along_y + m
+                for r in range(3):
+                    place, at = (p * 3 + q) * 3 + r, row + r * modes
+                    x, y, z = values[at, 0], values[at, 1], values[at, 2]
+                    w, gx, gy, gz = weight[place, 0], weight[place, 1], weight[place, 2], weight[place, 3]
+                    ux += w * x
+                    uy += w * y
+                    uz += w * z
+                    tx += gy * z - gz * y
+                    ty += gz * x - gx * z
+                    tz += gx * y - gy * x
+        shape[side, m, 0], shape[side, m, 1], shape[side, m, 2] = ux, uy, uz
+        shape[side, m, 3], shape[side, m, 4], shape[side, m, 5] = tx, ty, tz
 
 
 @item
@@ -77,14 +87,14 @@ def _summed(i, values, solids, shape, side, first):
 
 
 @item
-def _seated(i, lever, face, covered, Q, solids, shape, side):
+def _seated(block, i, lever, face, covered, Q, solids, workspace, side):
     """The point of the frame of body i at `lever` from its centroid (world axes) [m], with what its modes do there.
 
     As far as the face is `covered`, from 0 to 1, that is the motion that fits the whole face best, else that of the point alone.
     """
-    point = to_body(Q, lever)
+    point, shape = to_body(Q, lever), workspace.shape[block]
     if covered < 1.0:
-        _shapes_at(i, point, solids, shape, side)
+        _shapes_at(block, i, point, solids, workspace, side)
     if covered > 0.0:
         arm, whole = sub(point, load(solids.face_centre, face)), solids.face_shape
         for m in range(solids.mode_count[i]):
@@ -103,7 +113,7 @@ def _carry(block, side, i, lever, face, covered, solids, bodies, workspace):
     Q = rotation_matrix(q[i, 0], q[i, 1], q[i, 2], q[i, 3])
     quaternion, shift, whirl, slower, middle, between = (q[i, 0], q[i, 1], q[i, 2], q[i, 3]), NONE, NONE, NONE, NONE, NONE
     if solids.mode_count[i] > 0:
-        point = _seated(i, lever, face, covered, Q, solids, shape, side)
+        point = _seated(block, i, lever, face, covered, Q, solids, workspace, side)
         moved, turn = _summed(i, bodies.coordinate, solids, shape, side, 0), _summed(i, bodies.coordinate, solids, shape, side, 3)
         quaternion = turned(quaternion, turn, 1.0)
         carried = to_body(Q, to_world(rotation_matrix(quaternion[0], quaternion[1], quaternion[2], quaternion[3]), point))
@@ -133,15 +143,28 @@ def _carry(block, side, i, lever, face, covered, solids, bodies, workspace):
 
 
 @item
+def _softness(block, side, i, normal, solids, bodies, workspace):
+    """1/m' [1/kg] with which the modes of body i give way to a push along the normal on its seat."""
+    q, shape, total = bodies.orientation, workspace.shape[block], 0.0
+    own = to_body(rotation_matrix(q[i, 0], q[i, 1], q[i, 2], q[i, 3]), normal)
+    for m in range(solids.mode_count[i]):
+        total += (shape[side, m, 0] * own[0] + shape[side, m, 1] * own[1] + shape[side, m, 2] * own[2]) ** 2
+    return total
+
+
+@item
 def _push_modes(block, side, i, k, force, torque, solids, bodies, workspace):
-    """What a wrench on the carried body i, at its centroid, does to its modes."""
+    """What a wrench on the carried body i, at its centroid, does to its modes; returns the sum of its squares."""
     q, shape, push = bodies.orientation, workspace.shape[block], workspace.mode_push
     Q = rotation_matrix(q[i, 0], q[i, 1], q[i, 2], q[i, 3])
     own, moment = to_body(Q, force), to_body(Q, torque)
-    moment = sub(moment, cross(load(workspace.seat[block], side), own))  # about the point of contact
+    moment, square = sub(moment, cross(load(workspace.seat[block], side), own)), 0.0  # about the point of contact
     for m in range(solids.mode_count[i]):
         work = shape[side, m, 0] * own[0] + shape[side, m, 1] * own[1] + shape[side, m, 2] * own[2]
-        push[k, side, m] = work + dot((shape[side, m, 3], shape[side, m, 4], shape[side, m, 5]), moment)
+        work += dot((shape[side, m, 3], shape[side, m, 4], shape[side, m, 5]), moment)
+        push[k, side, m] = work
+        square += work * work
+    return square
 
 
 @item
@@ -184,14 +207,17 @@ def _look(block, k, dt, shapes, solids, bodies, pairs, contact, surroundings, wo
                 point, arm = middle, sub(middle, offset)
     _carry(block, 0, a, point, face_a, covered_a, solids, bodies, workspace)
     _carry(block, 1, b, arm, face_b, covered_b, solids, bodies, workspace)
+    if pairs.overlap[k] <= 0.0:  # a dashpot that meets modes for the first time must not be made for the whole mass
+        pairs.yields[k] = _softness(block, 0, a, normal, solids, bodies, workspace)
+        pairs.yields[k] += _softness(block, 1, b, normal, solids, bodies, workspace)
     vertex, face_normal, seat = workspace.bent_vertex[block], workspace.bent_face_normal[block], workspace.seat[block]
     seen = ModalBodies(
         workspace.bent_position[block], workspace.bent_orientation[block], workspace.bent_velocity[block],
         workspace.bent_spin[block], bodies.angular_momentum, workspace.bent_middle_velocity[block],
         workspace.bent_middle_spin[block], bodies.middle_angular_momentum, bodies.force, bodies.torque, bodies.contact_force,
         bodies.contact_torque, bodies.contact_count, bodies.path, bodies.power, bodies.work, bodies.coordinate, bodies.rate,
-        bodies.middle_rate, bodies.mode_force, bodies.mode_load, bodies.mode_power, bodies.mode_loss, bodies.bent_power,
-        bodies.peak_tension, bodies.peak_time, bodies.peak_place, bodies.failed_at, bodies.failed_place,
+        bodies.middle_rate, bodies.mode_force, bodies.mode_load, bodies.mode_loss, bodies.bent_load, bodies.seen_coordinate,
+        bodies.seen_tension, bodies.peak_tension, bodies.peak_time, bodies.peak_place, bodies.failed_at, bodies.failed_place,
     )  # fmt: skip
     turn_shape(a, shapes, seen.orientation, vertex, face_normal)
     turn_shape(b, shapes, seen.orientation, vertex, face_normal)
@@ -199,15 +225,35 @@ def _look(block, k, dt, shapes, solids, bodies, pairs, contact, surroundings, wo
     if pairs.overlap[k] > 0.0:
         force, couple = load(pairs.force, k), load(pairs.couple, k)
         turn_a, turn_b = add(couple, cross(load(pairs.point, k), force)), add(couple, cross(load(pairs.arm, k), force))
-        _push_modes(block, 0, a, k, scale(-1.0, force), scale(-1.0, turn_a), solids, bodies, workspace)
-        _push_modes(block, 1, b, k, force, turn_b, solids, bodies, workspace)
+        square = _push_modes(block, 0, a, k, scale(-1.0, force), scale(-1.0, turn_a), solids, bodies, workspace)
+        square += _push_modes(block, 1, b, k, force, turn_b, solids, bodies, workspace)
+        strength = dot(force, force)
+        pairs.yields[k] = square / strength if strength > 0.0 else 0.0
     store(pairs.point, k, add(load(pairs.point, k), (seat[0, 3], seat[0, 4], seat[0, 5])))
     store(pairs.arm, k, add(load(pairs.arm, k), (seat[1, 3], seat[1, 4], seat[1, 5])))
 
 
 @item
+def _apart(block, k, shapes, solids, bodies, pairs, contact, surroundings, workspace):
+    """Whether the bodies of pair k, which do not touch, cannot do so either as they are bent: as far as nothing of them reaches."""
+    _turn_shapes(block, k, shapes, bodies.orientation, pairs, workspace)
+    gap, offset, normal, pa, pb, reach = gap_between(
+        k, shapes, workspace.vertex, workspace.face_normal, bodies.position, pairs, contact, surroundings
+    )
+    out = bulge(pairs.a[k], solids, bodies) + bulge(pairs.b[k], solids, bodies)
+    if gap <= out:
+        return False
+    keep_apart(k, gap, normal, pa, sub(pb, offset), reach, solids, bodies, pairs, contact)
+    pairs.wake[k] -= out
+    return True
+
+
+@item
 def _meet_bent(block, k, dt, shapes, solids, bodies, pairs, contact, surroundings, workspace):
     """`_look`, and once more where the contact's mode asks for another seat; what that makes of its energy, the law has made."""
+    if pairs.overlap[k] <= 0.0 and _apart(block, k, shapes, solids, bodies, pairs, contact, surroundings, workspace):
+        pairs.seat[k] = AT_POINT
+        return
     _look(block, k, dt, shapes, solids, bodies, pairs, contact, surroundings, workspace)
     seat = AT_FACES if pairs.overlap[k] > 0.0 and pairs.mode[k] == FACE_FACE else AT_POINT
     if pairs.overlap[k] <= 0.0:  # a tangent body is what it stands for where it was looked at, elsewhere as far off as that bends
@@ -215,7 +261,7 @@ def _meet_bent(block, k, dt, shapes, solids, bodies, pairs, contact, surrounding
     elif seat != pairs.seat[k]:
         cost, stored = pairs.cost[k], pairs.stored[k]
         damping, friction, crushing, made = cost[LOSS_DAMPING], cost[LOSS_FRICTION], cost[LOSS_CRUSHING], cost[GAIN_LAW]
-        pairs.seat[k] = seat
+        pairs.seat[k], pairs.yields[k] = seat, RESEATED * pairs.yields[k]
         _look(block, k, 0.0, shapes, solids, bodies, pairs, contact, surroundings, workspace)
         made += (pairs.stored[k] if pairs.overlap[k] > 0.0 else 0.0) - stored
         cost[LOSS_DAMPING], cost[LOSS_FRICTION], cost[LOSS_CRUSHING], cost[GAIN_LAW] = damping, friction, crushing, made

@@ -24,15 +24,17 @@ _SOURCES = Path(__file__).parent
 DIGITS = 12
 
 
-def modes_of(body: Polyhedron, material: Material, size: float, count: int, *, folder: Path | None = None) -> Modes:
-    """The `count` lowest modes of a convex body with elements of `size` [m], computed unless they lie in `folder`.
+def modes_of(
+    body: Polyhedron, material: Material, size: float, count: int, strains: bool = False, *, folder: Path | None = None
+) -> Modes:
+    """`free_modes` of a convex body with elements of `size` [m], computed unless they lie in `folder`.
 
     folder: the user's cache unless given. Raises ValueError where the body has no such modes, CaseError without scikit-fem.
     """
-    path = (folder or cache_folder()) / f"{digest(body, material, size, count)}.npz"
+    path = (folder or cache_folder()) / f"{digest(body, material, size, count, strains)}.npz"
     known = _read(path)
     if known is None:
-        known = free_modes(assembled(meshed(body, size), material), count)
+        known = free_modes(assembled(meshed(body, size), material), count, strains)
         _keep(path, known)
     return known
 
@@ -43,13 +45,13 @@ def cache_folder() -> Path:
     return Path(base, "dilatedem", "modes")
 
 
-def digest(body: Polyhedron, material: Material, size: float, count: int) -> str:
-    """Of all that modes follow from: shape, material, mesh, how many, and these sources."""
+def digest(body: Polyhedron, material: Material, size: float, count: int, strains: bool = False) -> str:
+    """Of all that modes follow from: shape, material, mesh, how many and with what, and these sources."""
     told = hashlib.sha256()
     for source in sorted(_SOURCES.glob("*.py")):
         told.update(source.read_bytes())
     extent = np.ptp(body.vertices, axis=0).max()
-    for numbers in (np.round(body.vertices / extent, DIGITS) + 0.0, [extent, *material, size, count]):
+    for numbers in (np.round(body.vertices / extent, DIGITS) + 0.0, [extent, *material, size, count, strains]):
         told.update(np.asarray(numbers, dtype="<f8").tobytes())
     for face in body.faces:
         told.update(np.asarray(face, dtype="<i8").tobytes() + b"|")

@@ -9,10 +9,12 @@ from scipy.linalg import cholesky, eigh, solve_triangular
 from scipy.sparse.linalg import LinearOperator, eigsh, splu
 
 from dilatedem.deformation.elements import Elements
-from dilatedem.deformation.stress import corner_stress
+from dilatedem.deformation.stress import COLUMN, ROW, corner_stress
 
 #: modes that move a body and do not bend it
 RIGID = 6
+#: shapes of uniform strain
+STRAINS = 6
 #: share of their squared frequency by which modes may differ and still be taken for one frequency's
 EQUAL = 1e-6
 #: share of a mode's largest displacement from which on its sign can be told
@@ -52,13 +54,20 @@ class Modes:
         return np.einsum("i,j,ijk->k", coordinate, rate, self.twist)
 
 
-def free_modes(elements: Elements, count: int) -> Modes:
-    """The `count` lowest modes that bend a body. Raises ValueError where the mesh has fewer."""
+def free_modes(elements: Elements, count: int, strains: bool = False) -> Modes:
+    """The `count` lowest modes that bend a body. Raises ValueError where the mesh has fewer.
+
+    strains: and the six shapes of uniform strain, mixed with those into vibrations of their common space. Loads on faces make
+    uniform stresses, of which free modes bear little, as none of them has a load on its surface (MacNeal 1971).
+    """
     size = elements.stiffness.shape[0]
     if not 1 <= count <= size // 2 - RIGID:
         raise ValueError(f"{count} modes were asked for, and a mesh of {len(elements.nodes)} nodes has at most {size // 2 - RIGID}")
     rigid = rigid_motions(elements)
-    square, vectors = _bending(elements, rigid, _lowest(elements, count + RIGID), count)
+    lowest = _lowest(elements, count + RIGID)
+    if strains:
+        lowest, count = np.concatenate((lowest, uniform_strains(elements)), axis=1), count + STRAINS
+    square, vectors = _bending(elements, rigid, lowest, count)
     vectors = _signed(_separated(square, vectors))
     shape = vectors.T.reshape(count, -1, 3)
     gradient, twist = _inertia_gradient(elements, shape), _twist(elements, shape)
@@ -72,6 +81,14 @@ def rigid_motions(elements: Elements) -> np.ndarray:
     arm = elements.nodes - (weight @ elements.nodes) / weight.sum()
     motions = [np.tile(axis, (len(arm), 1)) for axis in np.eye(3)] + [np.cross(axis, arm) for axis in np.eye(3)]
     return _orthonormal(elements, np.stack([motion.ravel() for motion in motions], axis=-1))
+
+
+def uniform_strains(elements: Elements) -> np.ndarray:
+    """(3n, 6) displacements of a body that is strained alike everywhere, of the size of its rigid motions in the mass."""
+    arm = elements.nodes - elements.nodes.mean(axis=0)
+    own = [arm[:, a, None] * np.eye(3)[b] + arm[:, b, None] * np.eye(3)[a] for a, b in zip(ROW, COLUMN, strict=True)]
+    shapes = np.stack([shape.ravel() for shape in own], axis=-1)
+    return shapes / np.sqrt(np.einsum("na,na->a", shapes, elements.mass @ shapes))
 
 
 def _orthonormal(elements: Elements, vectors: np.ndarray) -> np.ndarray:

@@ -11,7 +11,7 @@ from dilatedem.deformation.elements import EDGES
 from dilatedem.deformation.lattice import Lattice
 from dilatedem.deformation.mesh import Mesh
 from dilatedem.deformation.modes import Modes
-from dilatedem.deformation.stress import COLUMN, ROW, in_plane
+from dilatedem.deformation.stress import in_plane
 from dilatedem.geometry.polyhedron import Polyhedron
 from dilatedem.numerics.blocks import offsets
 
@@ -27,11 +27,11 @@ ON_FACE = 1e-7
 
 @dataclass(frozen=True, eq=False)
 class Skin:
-    """f flat faces of normals (f, 3), with m modes of shapes phi; symmetric 3 x 3 as xx, yy, zz, 2 yz, 2 zx, 2 xy: n.A.n = q.A for
-    q of the products of n's components.
+    """f flat faces of normals n (f, 3), with m modes of shapes phi.
 
     centre  (f, 3) [m], reach (f,) [m] from there to the farthest corner, area (f,) [m2]
-    first   (f, m, 3) [m2/sqrt(kg)]: int phi_i dA;  moment (f, m, 6): int x phi_i dA;  second (f, m, m, 6): int phi_i phi_j dA
+    first   (f, m, 3) [m2/sqrt(kg)]: int phi_i dA
+    outward (f, m) [m2/sqrt(kg)]: int n.phi_i dA;  moment (f, m, 3): int x n.phi_i dA;  second (f, m, m): int n.phi_i n.phi_j dA
     start   (f+1,) of each face's points (p, 3) [m], of areas weight (p,) [m2] and shapes shape (p, m, 3)
     """
 
@@ -40,6 +40,7 @@ class Skin:
     reach: np.ndarray
     area: np.ndarray
     first: np.ndarray
+    outward: np.ndarray
     moment: np.ndarray
     second: np.ndarray
     start: np.ndarray
@@ -71,10 +72,12 @@ def skin_of(body: Polyhedron, modes: Modes) -> Skin:
     reach = np.array([np.sqrt(((loop - c) ** 2).sum(axis=1).max()) for loop, c in zip(loops, centre, strict=True)])
     first = np.stack([np.einsum("p,pmc->mc", weight, shape) for weight, shape in zip(weights, shapes, strict=True)])
     each = list(zip(weights, points, shapes, strict=True))
-    moment = np.stack([_paired(weight, point[:, None], shape)[:, 0] for weight, point, shape in each])
-    second = np.stack([_paired(weight, shape, shape) for weight, _, shape in each])
+    out = [shape @ body.normals[f] for f, shape in zip(faces, shapes, strict=True)]
+    moment = np.stack([np.einsum("p,pm,pc->mc", weight, own, point) for own, (weight, point, _) in zip(out, each, strict=True)])
+    second = np.stack([np.einsum("p,pm,pk->mk", weight, own, own) for own, (weight, _, _) in zip(out, each, strict=True)])
+    outward = np.stack([weight @ own for own, (weight, _, _) in zip(out, each, strict=True)])
     return Skin(
-        body.normals[faces], centre, reach, area, first, moment, second, offsets([len(weight) for weight in weights]),
+        body.normals[faces], centre, reach, area, first, outward, moment, second, offsets([len(weight) for weight in weights]),
         np.concatenate(points), np.concatenate(weights), np.concatenate(shapes),
     )  # fmt: skip
 
@@ -119,14 +122,6 @@ def face_motion(loop: np.ndarray, lattice: Lattice) -> tuple[np.ndarray, np.ndar
     inertia = (weight @ (arm**2).sum(axis=1)) * np.eye(3) - np.einsum("p,pa,pb->ab", weight, arm, arm)
     turned = np.linalg.solve(inertia, np.einsum("p,mpc->cm", weight, np.cross(arm, shape))).T
     return centre, np.concatenate((moved, turned), axis=1)
-
-
-def _paired(weight: np.ndarray, one: np.ndarray, other: np.ndarray) -> np.ndarray:
-    """(m, k, 6) sums over points of the symmetric parts of other (p, m, 3) times one (p, k, 3), those off the diagonal twice."""
-    tensor = np.einsum("p,pma,pkb->mkab", weight, other, one)
-    paired = tensor[..., ROW, COLUMN] + tensor[..., COLUMN, ROW]
-    paired[..., :3] *= 0.5
-    return paired
 
 
 def _fan(loop: np.ndarray) -> np.ndarray:

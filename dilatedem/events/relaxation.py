@@ -106,7 +106,8 @@ def imbalance(simulation) -> float:
     load = max(float((mass * model.loads.gravity).max()), float(norm(bodies.contact_force[free]).max()))
     left = np.maximum(norm(bodies.force[free]), norm(bodies.torque[free]) / reach)
     if isinstance(bodies, ModalBodies):
-        left = np.maximum(left, np.sqrt(mass) * norm(bodies.mode_force[free]))
+        pull = bodies.mode_force[free] - model.solids.mode_square[free] * bodies.coordinate[free]
+        left = np.maximum(left, np.sqrt(mass) * norm(pull))
     return float(left.max()) / load if load > 0.0 else float(left.max() > 0.0)
 
 

@@ -1,7 +1,8 @@
 """Stress of bodies that bend, step by step: the largest tension at their surfaces so far, and when it first passed what ice bears.
 
 Where nothing presses on it, a surface has stress in its own plane alone; the larger principal one is looked at in points of it, of
-the modes' own stress. Most steps need no look: no tension is above sqrt(sum w_i^2 xi_i^2) times a number of the body (Cauchy).
+the modes' own stress. Most steps need no look: since the last one no tension has changed by more than the root of sum w_i^2 dxi_i^2
+times a number of the body (Cauchy).
 """
 
 from math import sqrt
@@ -37,12 +38,16 @@ def _most_tension(i, solids, bodies):
 
 @item
 def _watch(i, time, solids, bodies):
-    square = 0.0
+    square, out, seen = 0.0, bodies.coordinate, bodies.seen_coordinate
     for m in range(solids.mode_count[i]):
-        square += solids.mode_square[i, m] * bodies.coordinate[i, m] ** 2
-    if sqrt(square) * solids.stress_bound[i] <= bodies.peak_tension[i]:
+        square += solids.mode_square[i, m] * (out[i, m] - seen[i, m]) ** 2
+    spare = bodies.peak_tension[i] - bodies.seen_tension[i]
+    if square * solids.stress_bound[i] ** 2 <= spare * spare:
         return
+    for m in range(solids.mode_count[i]):
+        seen[i, m] = out[i, m]
     tension, place = _most_tension(i, solids, bodies)
+    bodies.seen_tension[i] = tension
     if tension <= bodies.peak_tension[i]:
         return
     bodies.peak_tension[i], bodies.peak_time[i], bodies.peak_place[i] = tension, time, place

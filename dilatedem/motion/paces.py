@@ -11,7 +11,7 @@ from math import sqrt
 
 from dilatedem.jit import item
 from dilatedem.motion.carry import carried_travel
-from dilatedem.motion.modal import bends, travel
+from dilatedem.motion.modal import travel
 from dilatedem.state.response import is_free, is_joined
 
 #: a body that moves farther than this share of the pair list's limit in one step has left the realm of the step size
@@ -65,12 +65,11 @@ def _give_room(span, time, model, bodies, pairs, workspace):
 def _near_pairs(solids, bodies, pairs, workspace):
     """Pairs whose gap both rooms together could close, to `workspace.near`; their bodies are marked. Returns how many.
 
-    So are all parts of structures that move, and of floes of several: they share one motion, and one of them may be hit. And so are
-    bodies that bend, whose modes need short steps.
+    So are all parts of structures that move, and of floes of several: they share one motion, and one of them may be hit.
     """
     path, room, near, is_busy = bodies.path, workspace.room, workspace.near, workspace.is_busy
     for i in range(len(path)):
-        is_busy[i] = solids.carried[i] or is_joined(i, solids) or bends(i, solids)
+        is_busy[i] = solids.carried[i] or is_joined(i, solids)
     found = 0
     for k in range(pairs.count[0]):
         a, b = pairs.a[k], pairs.b[k]

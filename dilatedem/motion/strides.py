@@ -20,11 +20,11 @@ from dilatedem.contact.laws import force_change
 from dilatedem.contact.turning import turn_shape
 from dilatedem.jit import device, item
 from dilatedem.motion.integrate import place_ahead
-from dilatedem.motion.modal import bends
+from dilatedem.motion.modal import bent_by, opening_of, shake
 from dilatedem.numerics.vector import dot, load, sub
 from dilatedem.state.clock import NEVER
 from dilatedem.state.pairs import SIMPLEX
-from dilatedem.state.response import is_free, is_joined, mobility, relative_velocity, stride_of
+from dilatedem.state.response import is_free, is_joined, mobility, relative_velocity, stride_of, yielding
 
 #: share of its overlap by which a contact may deepen or open in a stride
 MOST_CHANGE = 0.3
@@ -140,20 +140,20 @@ def choose_strides(now, end, dt, pace, near, count, model, bodies, pairs, worksp
 
 @item
 def _bound_by_bodies(dt, pace, count, solids, shapes, bodies, pairs, workspace):
-    """No body goes past its horizon in a longer stride or is kicked hard; what moves as a whole or bends takes single steps."""
+    """No body goes past its horizon in a longer stride or is kicked hard; what moves as a whole takes single steps."""
     island, most, path, horizon = workspace.island, workspace.most_steps, bodies.path, workspace.horizon
     for w in range(count):
         i = workspace.due_bodies[w]
         if island[i] < 0:
             continue
         workspace.stiffness[i], root = 0.0, island[i]
-        if solids.carried[i] or is_joined(i, solids) or bends(i, solids):
+        if solids.carried[i] or is_joined(i, solids):
             most[root] = 1.0
         if most[root] < 2.0:
             continue
         v, spin = load(bodies.middle_velocity, i), load(bodies.middle_angular_velocity, i)
         way = abs(v[0] - pairs.frame[0]) + abs(v[1] - pairs.frame[1]) + abs(v[2])
-        way = HASTE * dt * (way + (abs(spin[0]) + abs(spin[1]) + abs(spin[2])) * shapes.reach[i])
+        way = HASTE * dt * (way + (abs(spin[0]) + abs(spin[1]) + abs(spin[2])) * shapes.reach[i] + shake(i, solids, bodies))
         _bound(root, way, horizon[i] - path[i], most)
         force, torque, give = load(bodies.force, i), load(bodies.torque, i), solids.inverse_inertia
         turned = sqrt(dot(torque, torque)) * (give[i, 0, 0] + give[i, 1, 1] + give[i, 2, 2]) * shapes.reach[i]
@@ -183,14 +183,15 @@ def _bound_by_contacts(dt, pace, near, solids, bodies, pairs, workspace):
             continue
         point, arm, normal = load(pairs.point, k), load(pairs.arm, k), load(pairs.normal, k)
         opening = dot(relative_velocity(bodies.middle_velocity, bodies.middle_angular_velocity, a, b, point, arm), normal)
+        opening = opening_of(k, solids, pairs, opening)
         _bound(root, dt * abs(opening), MOST_CHANGE * pairs.overlap[k], most)
         moved = workspace.island[a] >= 0 and workspace.island[b] >= 0
-        tangent, highest = (2.0 if moved else 1.0) * pairs.tangent[k], 0.0
+        tangent, highest, bent = (2.0 if moved else 1.0) * pairs.tangent[k], 0.0, yielding(k, solids, pairs)
         if workspace.island[a] >= 0:
-            stiffness[a] += tangent * mobility(a, solids, bodies.orientation, point, normal)
+            stiffness[a] += tangent * (mobility(a, solids, bodies.orientation, point, normal) + bent)
             highest = stiffness[a]
         if workspace.island[b] >= 0:
-            stiffness[b] += tangent * mobility(b, solids, bodies.orientation, arm, normal)
+            stiffness[b] += tangent * (mobility(b, solids, bodies.orientation, arm, normal) + bent)
             highest = max(highest, stiffness[b])
         phase = sqrt(highest)
         _bound(root, phase, pace.frequency, most)
@@ -215,6 +216,8 @@ def _look_ahead(dt, near, model, bodies, pairs, workspace):
         apart = sub(load(bodies.middle_velocity, b), load(bodies.middle_velocity, a))
         spin_a, spin_b = load(bodies.middle_angular_velocity, a), load(bodies.middle_angular_velocity, b)
         rate = sqrt(dot(apart, apart)) + sqrt(dot(spin_a, spin_a)) * shapes.reach[a] + sqrt(dot(spin_b, spin_b)) * shapes.reach[b]
+        shaken = shake(a, model.solids, bodies) + shake(b, model.solids, bodies)
+        rate += shaken
         if HASTE * time * rate <= pairs.wake[k] - path[a] - path[b]:
             continue
         _place(a, time, model, bodies, workspace)
@@ -223,7 +226,7 @@ def _look_ahead(dt, near, model, bodies, pairs, workspace):
             k, shapes, workspace.vertex_ahead, workspace.face_normal_ahead, workspace.position_ahead, pairs, model.contact,
             model.surroundings,
         )[0]  # fmt: skip
-        if gap < 0.0:
+        if gap < bent_by(a, model.solids, bodies) + bent_by(b, model.solids, bodies) + time * shaken:
             most[root] = int(most[root]) / SHORTER
             shortened = True
     return shortened

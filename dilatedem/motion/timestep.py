@@ -16,7 +16,7 @@ from dilatedem.motion.paces import LONGEST_MOVE
 from dilatedem.numerics.blocks import take
 from dilatedem.numerics.plain import dot, norm, nth_root, turned
 from dilatedem.numerics.vector import load
-from dilatedem.state.response import gives_way, mobility
+from dilatedem.state.response import gives_way, mobility, yielding
 from dilatedem.water.loads import fastest_water
 
 #: impact speed, as a share of sqrt(gravity x reach), for which contacts are laid out where nothing moves yet
@@ -32,9 +32,10 @@ AT_ONCE = 4096
 def critical_step(model, bodies, only=None) -> float:
     """Time step [s] to stay well below, estimated for one face and one corner contact of every body; docs/theory.md has its limits.
 
-    A pair's 1/m_eff is the sum over both bodies, so omega^2 = k/m_eff is at most twice the largest k/m' of one body, with
-    1/m' = 1/m + (r x n).I^-1.(r x n) at the worst corner; damping shortens the step by sqrt(1 + xi^2) - xi, xi the damping
-    coefficient. Friction springs, crossing edges and contacts that act together are left to the share of it that is taken.
+    A pair's 1/m_eff is the sum over both bodies, so omega^2 = k/m_eff is at most twice the largest k/m' of one body, with 1/m' =
+    1/m + (r x n).I^-1.(r x n) at the worst corner, and what modes give way by; damping shortens the step by sqrt(1 + xi^2) - xi,
+    xi the damping coefficient. Friction springs, crossing edges and contacts that act together are left to the share of it that
+    is taken.
     Infinite where nothing can move. only: numbers of the bodies that count, all unless given.
     """
     shapes, solids, damping, law = model.shapes, model.solids, model.contact.damping, law_of(model.contact)
@@ -128,7 +129,7 @@ def _worst_mobility(shapes, solids) -> np.ndarray:
             lever = np.cross(corners, axis)
             turning = dot(lever, turned(solids.inverse_inertia[bodies][:, None], lever))
             most[bodies] = np.maximum(most[bodies], turning.max(axis=1))
-    return _lightest(solids) + most
+    return _lightest(solids) + most + getattr(solids, "mode_mobility", 0.0)
 
 
 def _lightest(solids) -> np.ndarray:
@@ -173,8 +174,9 @@ def assembled_frequency(model, bodies, pairs, workspace):
         if pairs.overlap[k] > 0.0:
             tangent, normal, a, b = pairs.tangent[k], load(pairs.normal, k), pairs.a[k], pairs.b[k]
             both = 2.0 if gives_way(a, solids) and gives_way(b, solids) else 1.0
-            stiffness[a] += both * tangent * mobility(a, solids, bodies.orientation, load(pairs.point, k), normal)
-            stiffness[b] += both * tangent * mobility(b, solids, bodies.orientation, load(pairs.arm, k), normal)
+            bent = yielding(k, solids, pairs)
+            stiffness[a] += both * tangent * (mobility(a, solids, bodies.orientation, load(pairs.point, k), normal) + bent)
+            stiffness[b] += both * tangent * (mobility(b, solids, bodies.orientation, load(pairs.arm, k), normal) + bent)
     most = 0.0
     for i in range(len(stiffness)):
         most = max(most, stiffness[i])

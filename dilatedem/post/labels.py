@@ -109,6 +109,7 @@ KEYS: dict[str, tuple[str, str]] = {
     "contact.damping_law": ("damping law", ""),
     "deformation.modes": ("modes of each body", ""),
     "deformation.damping": ("damping ratio of modes", ""),
+    "deformation.strains": ("whether uniform strains are added to the modes", ""),
     "deformation.mesh_size": ("size of the finite elements", "m"),
     "contact.friction": ("friction coefficient", ""),
     "contact.stiffness_ratio": ("stiffness ratio", ""),

@@ -187,9 +187,9 @@ class Simulation:
     @cached_property
     def bent(self) -> dict:
         """The bodies that bend, each a `deformation.bent.Bent`, by number."""
-        from dilatedem.scene.bending import bent_bodies  # it loads half of SciPy
+        from dilatedem.scene.bending import bent_again  # it loads half of SciPy
 
-        return bent_bodies(self.case, self.scene, self.model.solids.mode_count)
+        return bent_again(self.case, self.scene, self.model.solids)
 
     @property
     def time(self) -> float:

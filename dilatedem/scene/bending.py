@@ -9,11 +9,14 @@ from dilatedem.deformation.bent import Bent
 from dilatedem.deformation.elements import Material
 from dilatedem.deformation.kept import modes_of
 from dilatedem.deformation.lattice import lattice_of
+from dilatedem.deformation.modes import STRAINS
 from dilatedem.deformation.skin import Skin, face_motion, skin_of, surface_stress
+from dilatedem.deformation.stress import COLUMN, ROW
 from dilatedem.errors import CaseError
 from dilatedem.geometry.polyhedron import Polyhedron
 from dilatedem.geometry.shapes import Shapes
 from dilatedem.numerics.blocks import offsets
+from dilatedem.numerics.plain import dot, turned
 from dilatedem.scene.place import Scene
 from dilatedem.state.bodies import Solids
 from dilatedem.state.modal import ModalSolids
@@ -33,6 +36,11 @@ def bent_bodies(case: Case, scene: Scene, counts: np.ndarray) -> dict[int, Bent]
     return {number: bent for number, bent in sorted(found.items()) if bent}
 
 
+def bent_again(case: Case, scene: Scene, solids: ModalSolids) -> dict[int, Bent]:
+    """The bodies that bend, as `bent_solids` found them."""
+    return bent_bodies(case, scene, np.maximum(solids.mode_count - (STRAINS if case.deformation.strains else 0), 0))
+
+
 def bent_solids(case: Case, scene: Scene, solids: Solids, shapes: Shapes) -> Solids | ModalSolids:
     """The same bodies with their modes; `solids` itself where none has any. Raises CaseError for one that has none to have."""
     counts = _counts(case, scene, solids)
@@ -40,24 +48,49 @@ def bent_solids(case: Case, scene: Scene, solids: Solids, shapes: Shapes) -> Sol
         if case.bends:
             raise CaseError("deformation.modes: no body can bend: each is held, or has modes = 0 of its own")
         return solids
-    most = int(counts.max())
     bent = bent_bodies(case, scene, counts)
-    counts[np.setdiff1d(np.arange(len(counts)), list(bent))] = 0
+    counts[:] = 0
+    for number, found in bent.items():
+        counts[number] = found.modes.count
+    most = int(counts.max())
     if not bent:
         raise CaseError("no floe can bend: make deformation.mesh_size smaller")
-    square, damping, reach = (np.zeros((len(counts), most)) for _ in range(3))
-    gradient = np.zeros((len(counts), most, 3, 3))
+    frequency, damping, reach = (np.zeros((len(counts), most)) for _ in range(3))
+    change = np.zeros((len(counts), most, 6))
     for number, (_, modes, _) in bent.items():
         k = modes.count
-        square[number, :k] = modes.frequency**2
+        frequency[number, :k] = modes.frequency
         damping[number, :k] = 2.0 * case.deformation.damping * modes.frequency
         reach[number, :k] = np.sqrt((modes.shape**2).sum(axis=2).max(axis=1))
-        gradient[number, :k] = modes.inertia_gradient
-    arrays = {"mode_count": counts, "mode_square": square, "mode_damping": damping, "mode_reach": reach}
-    arrays["inertia_gradient"] = gradient
-    arrays |= _lattices(bent, len(counts)) | _faces(shapes, bent, most) | _skins(bent, len(counts), most)
+        turn = solids.inverse_inertia[number]
+        change[number, :k] = -turned(turn, turned(turn, modes.inertia_gradient).transpose(0, 2, 1))[:, ROW, COLUMN]
+    arrays = {"mode_count": counts, "mode_frequency": frequency, "mode_square": frequency**2, "mode_damping": damping}
+    faces = _faces(shapes, bent, most)
+    arrays |= {"mode_reach": reach, "mode_mobility": _mobility(shapes, faces, bent, len(counts))}
+    arrays |= {"rest_inertia": np.ascontiguousarray(solids.inverse_inertia[:, ROW, COLUMN]), "inertia_change": change}
+    arrays |= {"swing": np.zeros((len(counts), 8, most)), "swing_time": np.zeros(len(counts))}
+    arrays |= _lattices(bent, len(counts)) | faces | _skins(bent, len(counts), most)
     arrays |= _stresses(bent, len(counts), most)
     return ModalSolids(*solids, **arrays, strength=np.full(len(counts), case.ice.flexural_strength))
+
+
+def _mobility(shapes: Shapes, faces: dict[str, np.ndarray], bent: dict[int, Bent], count: int) -> np.ndarray:
+    """(count,) 1/kg: how modes give way at most to a push on a face at one of its corners, smaller faces by as much less as
+    they are softer."""
+    most = np.zeros(count)
+    for number in bent:
+        found = []
+        for face in range(shapes.face_start[number], shapes.face_start[number + 1]):
+            loop = shapes.vertex[shapes.loop[shapes.loop_start[face] : shapes.loop_start[face + 1]]]
+            arm, own = loop - loop.mean(axis=0), faces["face_shape"][face]
+            moved = own[:, None, :3] + np.cross(own[:, None, 3:], arm)
+            wide = np.cross(loop - loop[0], np.roll(loop, -1, axis=0) - loop[0]).sum(axis=0)
+            found.append((dot(moved, shapes.face_normal[face]) ** 2).sum(axis=0).max() * np.array([1.0, (wide**2).sum() ** 0.25]))
+        if found:
+            found = np.array(found)
+            largest = (found[:, 1] / found[:, 0]).max()
+            most[number] = (found[:, 1] / largest).max()
+    return most
 
 
 def _lattices(bent: dict[int, Bent], count: int) -> dict[str, np.ndarray]:
@@ -78,12 +111,12 @@ def _lattices(bent: dict[int, Bent], count: int) -> dict[str, np.ndarray]:
 
 
 def _faces(shapes: Shapes, bent: dict[int, Bent], most: int) -> dict[str, np.ndarray]:
-    """Middle of each face of the cores, and how it moves with each of up to `most` modes."""
+    """Middle of each face, and how it moves with each of up to `most` modes: those of the cores, moved out to the surface."""
     centre, moved = np.zeros((len(shapes.face_normal), 3)), np.zeros((len(shapes.face_normal), most, 6))
     for number, (_, _, lattice) in bent.items():
         for face in range(shapes.face_start[number], shapes.face_start[number + 1]):
             loop = shapes.vertex[shapes.loop[shapes.loop_start[face] : shapes.loop_start[face + 1]]]
-            centre[face], own = face_motion(loop, lattice)
+            centre[face], own = face_motion(loop + shapes.radius[number] * shapes.face_normal[face], lattice)
             moved[face, : len(own)] = own
     return {"face_centre": centre, "face_shape": moved}
 
@@ -117,7 +150,7 @@ def _stresses(bent: dict[int, Bent], count: int, most: int) -> dict[str, np.ndar
 
 def _widened(values: np.ndarray, most: int, name: str) -> np.ndarray:
     """Values of the modes of a body, with zeros for those that others have."""
-    axes = {"first": (1,), "moment": (1,), "second": (1, 2), "shape": (1,)}.get(name, ())
+    axes = {"first": (1,), "outward": (1,), "moment": (1,), "second": (1, 2), "shape": (1,)}.get(name, ())
     return np.pad(values, [(0, most - size if axis in axes else 0) for axis, size in enumerate(values.shape)])
 
 
@@ -147,7 +180,7 @@ def _bent(case: Case, scene: Scene, number: int, outer: Polyhedron, count: int) 
     sizes = case.deformation.mesh_size * SMALLER ** np.arange(TRIES)
     for size in sizes.tolist():
         try:
-            modes = modes_of(outer, material, size, count)
+            modes = modes_of(outer, material, size, count, case.deformation.strains)
             break
         except ValueError as fault:
             if size > sizes[-1]:

@@ -16,10 +16,15 @@ from dilatedem.state.storage import Workspace
 ModalSolids = NamedTuple("ModalSolids", [
     *Solids.__annotations__.items(),
     ("mode_count", np.ndarray),  # (n,) modes of each body, the first ones of its rows
-    ("mode_square", np.ndarray),  # (n, m) 1/s2, squared frequency
+    ("mode_frequency", np.ndarray),  # (n, m) rad/s
+    ("mode_square", np.ndarray),  # (n, m) 1/s2, its square
     ("mode_damping", np.ndarray),  # (n, m) 1/s, twice the damping ratio times the frequency
     ("mode_reach", np.ndarray),  # (n, m) 1/sqrt(kg), the largest displacement of the shape
-    ("inertia_gradient", np.ndarray),  # (n, m, 3, 3) m sqrt(kg), of the inertia by the coordinate
+    ("rest_inertia", np.ndarray),  # (n, 6) 1/(kg m2), inverse inertia of the unbent body: xx, yy, zz, yz, zx, xy
+    ("inertia_change", np.ndarray),  # (n, m, 6) 1/(kg^1.5 m3), of that by the coordinate
+    ("mode_mobility", np.ndarray),  # (n,) 1/kg, with which the modes give way at most to a push on a corner of the core
+    ("swing", np.ndarray),  # (n, 8, m) how modes swing in a step as long as the last one: see `motion.modal`
+    ("swing_time", np.ndarray),  # (n,) s, how long that was; 0: none yet
     ("lattice_start", np.ndarray),  # (n,)
     ("lattice_size", np.ndarray),  # (n, 3) places along each axis
     ("lattice_origin", np.ndarray),  # (n, 3) m
@@ -33,8 +38,9 @@ ModalSolids = NamedTuple("ModalSolids", [
     ("skin_reach", np.ndarray),  # (f,) m
     ("skin_area", np.ndarray),  # (f,) m2
     ("skin_first", np.ndarray),  # (f, m, 3) m2/sqrt(kg)
-    ("skin_moment", np.ndarray),  # (f, m, 6) m3/sqrt(kg)
-    ("skin_second", np.ndarray),  # (f, m, m, 6) m2/kg
+    ("skin_outward", np.ndarray),  # (f, m) m2/sqrt(kg)
+    ("skin_moment", np.ndarray),  # (f, m, 3) m3/sqrt(kg)
+    ("skin_second", np.ndarray),  # (f, m, m) m2/kg
     ("skin_start", np.ndarray),  # (f+1,) points of each face
     ("skin_point", np.ndarray),  # (p, 3) m
     ("skin_weight", np.ndarray),  # (p,) m2
@@ -51,12 +57,13 @@ ModalBodies = NamedTuple("ModalBodies", [
     *Bodies.__annotations__.items(),
     ("coordinate", np.ndarray),  # (n, m) m sqrt(kg)
     ("rate", np.ndarray),  # (n, m) m sqrt(kg)/s
-    ("middle_rate", np.ndarray),  # (n, m) half a step ago
-    ("mode_force", np.ndarray),  # (n, m) sqrt(kg) m/s2, all that acts on the mode: its acceleration
+    ("middle_rate", np.ndarray),  # (n, m) mean of the last step
+    ("mode_force", np.ndarray),  # (n, m) sqrt(kg) m/s2, all that acts on the mode but its own stiffness and damping
     ("mode_load", np.ndarray),  # (n, m) the same of contacts, water and wind alone
-    ("mode_power", np.ndarray),  # (n,) W that the damping of modes takes up
     ("mode_loss", np.ndarray),  # (n,) J that it has taken up since the start
-    ("bent_power", np.ndarray),  # (n, works) W that the loads in `water.loads.WORKS` do on modes; `work` has what they did
+    ("bent_load", np.ndarray),  # (n, works, m) sqrt(kg) m/s2 of each load in `water.loads.WORKS`; `work` has what they did
+    ("seen_coordinate", np.ndarray),  # (n, m) m sqrt(kg), when the stress was last looked at
+    ("seen_tension", np.ndarray),  # (n,) Pa, what was found
     ("peak_tension", np.ndarray),  # (n,) Pa, the largest principal stress at a point of the surface so far
     ("peak_time", np.ndarray),  # (n,) s, when that was
     ("peak_place", np.ndarray),  # (n,) of `ModalSolids.stress_point`, where
@@ -76,6 +83,7 @@ ModalWorkspace = NamedTuple("ModalWorkspace", [
     ("bent_middle_velocity", np.ndarray),  # (threads, n, 3)
     ("bent_middle_spin", np.ndarray),  # (threads, n, 3)
     ("shape", np.ndarray),  # (threads, 2, m, 6) of the modes of a pair's bodies: displacement [1/sqrt(kg)], turning [1/m/sqrt(kg)]
+    ("spline", np.ndarray),  # (threads, 27, 4) weights of the places around a point: of a field there, of half its slopes
     ("seat", np.ndarray),  # (threads, 2, 6) m: what is carried from the centroid, turned with the bent body; where it is carried to
     ("mode_push", np.ndarray),  # (pairs, 2, m) sqrt(kg) m/s2, of each contact on the modes of its bodies
     ("mode_idle", np.ndarray),  # (1, m) the same, that nobody asks for
@@ -89,9 +97,10 @@ def bending(bodies: Bodies, modes: int) -> ModalBodies:
     coordinate, rate, middle_rate, mode_force, mode_load = (np.zeros((count, modes)) for _ in range(5))
     return ModalBodies(
         *bodies, coordinate, rate, middle_rate, mode_force, mode_load,
-        mode_power=np.zeros(count),
         mode_loss=np.zeros(count),
-        bent_power=np.zeros_like(bodies.power),
+        bent_load=np.zeros((*bodies.power.shape, modes)),
+        seen_coordinate=np.zeros((count, modes)),
+        seen_tension=np.zeros(count),
         peak_tension=np.zeros(count),
         peak_time=np.zeros(count),
         peak_place=np.zeros(count, np.int64),
@@ -113,6 +122,7 @@ def bending_room(workspace: Workspace, threads: int, bodies: int, pairs: int, mo
         bent_middle_velocity=np.zeros((threads, bodies, 3)),
         bent_middle_spin=np.zeros((threads, bodies, 3)),
         shape=np.zeros((threads, 2, modes, 6)),
+        spline=np.zeros((threads, 27, 4)),
         seat=np.zeros((threads, 2, 6)),
         mode_push=np.zeros((pairs, 2, modes)),
         mode_idle=np.zeros((1, modes)),

@@ -65,6 +65,7 @@ COLUMNS = (
     Column("size", 1, np.float64, RESULT, "length or area of the patch, m or m2; 1 for a contact at a point"),
     Column("slide_loss", 1, np.float64, MEMORY, "N/m, most of what the ice can take that the contact loses as it slides"),
     Column("seat", 1, np.int64, MEMORY, "where bodies that bend are carried: 0 the point of contact, 1 their faces"),
+    Column("yields", 1, np.float64, RESULT, "1/kg, with which the modes of both bodies give way to the contact"),
     Column("rounds", 1, np.int64, LEDGER, "rounds of the last distance search"),
     Column("cost", len(COSTS), np.float64, LEDGER, "J of each of `state.ledger.COSTS` in the last step"),
 )

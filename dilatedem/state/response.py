@@ -4,6 +4,7 @@ from dilatedem.jit import by_type, item
 from dilatedem.numerics.rotation import rotation_matrix, to_body, to_world
 from dilatedem.numerics.vector import add, along, cross, dot, load, sub
 from dilatedem.state.bodies import WateredSolids
+from dilatedem.state.modal import ModalSolids
 
 
 @item
@@ -163,6 +164,34 @@ def mobility(i, solids, orientation, lever, normal):
     xx, yy, zz = give[i, 0, 0] * x * x, give[i, 1, 1] * y * y, give[i, 2, 2] * z * z
     xy, xz, yz = give[i, 0, 1] * x * y, give[i, 0, 2] * x * z, give[i, 1, 2] * y * z
     return total + ((xx + yy) + zz) + 2.0 * ((xy + xz) + yz)
+
+
+@item
+def _stiff(k, solids, pairs):
+    return 0.0
+
+
+@item
+def _yielding(k, solids, pairs):
+    return pairs.yields[k]
+
+
+#: yielding(k, solids, pairs): 1/m' [1/kg] with which the modes of both bodies give way to the contact of pair k.
+yielding = by_type(_stiff, {ModalSolids: _yielding}, at=1)
+
+
+@item
+def _reduced(k, a, b, solids, pairs):
+    return reduced_mass(a, b, solids)
+
+
+@item
+def _reduced_by_modes(k, a, b, solids, pairs):
+    return 1.0 / (1.0 / reduced_mass(a, b, solids) + pairs.yields[k])
+
+
+#: pressed_mass(k, a, b, solids, pairs): as `reduced_mass`, of the bodies of pair k as they bend; what a dashpot is made for.
+pressed_mass = by_type(_reduced, {ModalSolids: _reduced_by_modes}, at=3)
 
 
 @item

@@ -11,7 +11,8 @@ from dilatedem.contact.tangent import meet
 from dilatedem.jit import device, item
 from dilatedem.motion.carry import carried_travel
 from dilatedem.motion.flexure import watch_stress
-from dilatedem.motion.modal import drift, kick, load_modes, sum_pushes
+from dilatedem.motion.integrate import kick
+from dilatedem.motion.modal import drift, load_modes, sum_pushes
 from dilatedem.motion.paces import LONGEST_MOVE
 from dilatedem.state.response import is_free, is_joined, stride_of
 from dilatedem.step.ahead import AT_HAND, fetch_ahead

@@ -10,7 +10,7 @@ from dilatedem.contact.pressed import Pressed
 from dilatedem.contact.search.cone import radius_at
 from dilatedem.jit import device, item
 from dilatedem.numerics.vector import along, cross, dot, norm, scale, store, sub
-from dilatedem.state.response import mobility, relative_spin, relative_velocity
+from dilatedem.state.response import mobility, relative_spin, relative_velocity, yielding
 
 #: share of the sum of the radii past which the distance of the cores means nothing to the energy: they are about to touch
 DEEPEST_SHARE = 0.95
@@ -56,7 +56,7 @@ def _rocking_couple(dashpot, force, spread, normal, turning):
 
 
 @item
-def _act(contact, a, b, solids, bodies, offset, through, energy, force, moment):
+def _act(contact, k, a, b, solids, bodies, pairs, offset, through, energy, force, moment):
     """The elastic wrench of a pose and its dashpot, as `Acting`; through: as of `pressure_centre`, from a's centroid."""
     square = dot(force, force)
     elastic, unit = sqrt(square), 1.0 / square
@@ -69,6 +69,7 @@ def _act(contact, a, b, solids, bodies, offset, through, energy, force, moment):
     share, strength = 1.0, 0.0
     if contact.damping > 0.0:
         give = mobility(a, solids, bodies.orientation, point, direction) + mobility(b, solids, bodies.orientation, arm, direction)
+        give += yielding(k, solids, pairs)
         strength = dashpot(contact, elastic, give * energy, power * (unit * elastic))
         share = max(1.0 + strength * power * unit, 0.0)
     return Acting(point, arm, direction, couple, velocity, turning, square, elastic, power, strength, share)
@@ -122,7 +123,7 @@ def press_consistent(contact, k, dt, shapes, vertex, face_normal, solids, bodies
             store(pairs.couple, k, NONE)
             pairs.grip[k] = 0.0
             return Pressed(mode, size, overlap, middle, normal, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, NONE, NONE)
-        acting = _act(contact, a, b, solids, bodies, offset, middle, energy, force, moment)
+        acting = _act(contact, k, a, b, solids, bodies, pairs, offset, middle, energy, force, moment)
         settled, crushed, search, found = settle(
             contact, k, dt, acting.velocity, search, crushed, acting.elastic, acting.share * acting.elastic, energy, overlap,
             vertex, face_normal, shapes, bodies, pairs, offset, normal, pa, pb, scratch,

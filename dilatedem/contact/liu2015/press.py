@@ -20,7 +20,7 @@ from dilatedem.contact.liu2015.patch import (
 from dilatedem.contact.pressed import Pressed
 from dilatedem.jit import device, item
 from dilatedem.numerics.vector import dot, sub
-from dilatedem.state.response import mobility, reduced_mass, relative_velocity
+from dilatedem.state.response import mobility, pressed_mass, relative_velocity
 
 #: shape factor of a polygonal face, Liu 2015 below Eq. (24)
 BETA = 1.02
@@ -160,7 +160,7 @@ def press_liu2015(contact, k, dt, shapes, vertex, face_normal, solids, bodies, p
         )
         velocity = relative_velocity(bodies.velocity, bodies.angular_velocity, a, b, point, sub(point, offset))
         approach = -dot(velocity, normal)
-        mass = reduced_mass(a, b, solids)
+        mass = pressed_mass(k, a, b, solids, pairs)
         elastic = stiffness * power(overlap, exponent)
         viscous = damping_coefficient(contact.damping, mass, stiffness) * power(overlap, exponent - 1.0) * approach
         settled, crushed, search, found = settle(

@@ -7,7 +7,7 @@ from dilatedem.deformation import elements as finite
 from dilatedem.deformation import kept
 from dilatedem.deformation.elements import Material, assembled, interpolation, shares
 from dilatedem.deformation.mesh import meshed
-from dilatedem.deformation.modes import free_modes, rigid_motions
+from dilatedem.deformation.modes import STRAINS, free_modes, rigid_motions
 from dilatedem.deformation.stress import corner_stress, tension, tensors, von_mises
 from dilatedem.errors import CaseError
 from dilatedem.geometry.polyhedron import prism
@@ -34,6 +34,31 @@ def test_modes_are_those_of_the_matrices(elements):
         force, inertia = elements.stiffness @ shape.ravel(), square * (elements.mass @ shape.ravel())
         assert np.abs(force - inertia).max() < 1e-8 * np.abs(force).max()
     assert (np.diff(modes.frequency) >= 0.0).all()
+
+
+def compressed(elements, modes, pressure):
+    """(n, 3) [m] what modes make, at rest, of a pressure [Pa] on the ends of a prism along z; and the exact displacement.
+
+    The load on nodes is K u of that, u, as elements have it; what moves and turns the body as a whole is taken out.
+    """
+    exact = elements.nodes * [0.3, 0.3, -1.0] * (pressure / 1e9)
+    load = elements.stiffness @ exact.ravel()
+    coordinate = modes.shape.reshape(modes.count, -1) @ load / modes.frequency**2
+    rigid = rigid_motions(elements)
+    free = exact.ravel() - rigid @ (rigid.T @ (elements.mass @ exact.ravel()))
+    return np.einsum("m,mni->ni", coordinate, modes.shape), free.reshape(-1, 3)
+
+
+def test_uniform_strains_make_a_block_that_is_pressed_as_short_as_it_is(elements):
+    plain, strained = free_modes(elements, 6), free_modes(elements, 6, strains=True)
+    assert strained.count == 6 + STRAINS and (np.diff(strained.frequency) >= 0.0).all()
+    found, exact = compressed(elements, strained, 1e6)
+    np.testing.assert_allclose(found, exact, atol=1e-8 * np.abs(exact).max())
+    without, _ = compressed(elements, plain, 1e6)
+    assert np.abs(without - exact).max() > 0.5 * np.abs(exact).max(), "what bends alone is not what shortens"
+    shapes = strained.shape.reshape(strained.count, -1)
+    np.testing.assert_allclose(shapes @ (elements.mass @ shapes.T), np.eye(strained.count), atol=1e-9)
+    assert kept.digest(FLOE, ICE, 0.5, 6, True) != kept.digest(FLOE, ICE, 0.5, 6)
 
 
 def test_they_are_the_same_every_time(elements):
