@@ -49,3 +49,10 @@ def test_a_field_is_its_seed(monkeypatch):
     one, again, other = (np.concatenate(drawn("square", TANK, 3.0, 0.8, seed)) for seed in (1, 1, 2))
     assert np.array_equal(one, again)
     assert not np.allclose(one, other)
+
+
+def test_a_case_of_a_point_is_a_case(tmp_path, monkeypatch):
+    monkeypatch.setattr("validation.managed_ice.fields.ROUNDS", 1)
+    case = Point("square", 0.8, thickness=0.5, floe=10.0, seed=3).case(tmp_path)
+    assert (case.field.source, case.field.seed, case.ice.thickness) == ("file", 3, 0.5)
+    assert case.structure[0].support.kind == "driven"

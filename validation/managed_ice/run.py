@@ -2,7 +2,7 @@
 
     python -m validation.managed_ice.run [FOLDER] [--as-is]
 
-from the root of the repository: one run after another into FOLDER (runs/managed_ice unless given), half a minute each; those that
+from the root of the repository: one run after another into FOLDER (runs/managed_ice unless given), ten seconds each; those that
 runs.csv tells of are not made anew. Writes tables and figures of README.md; with --as-is from what is in runs.csv alone.
 """
 

@@ -3,6 +3,7 @@
 import csv
 import io
 import json
+import tomllib
 from collections.abc import Iterable
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -48,8 +49,8 @@ class Point:
         """The case, its field drawn into a folder under `root` where it is not there."""
         size = tuple(load(CASE).domain.size)
         path = written(root / "fields", self.shape, size, self.floe, self.concentration, self.seed)
-        field = {"source": "file", "file": str(path), "tolerance": 0.0, "seed": self.seed}
-        return case_from(CASE, {"field": field, "ice.thickness": self.thickness})
+        field = {"source": "file", "file": str(path.absolute()), "tolerance": 0.0, "seed": self.seed}
+        return case_from(tomllib.loads(CASE.read_text()) | {"field": field}, {"ice.thickness": self.thickness})
 
 
 @dataclass(frozen=True)
